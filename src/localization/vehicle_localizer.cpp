@@ -60,6 +60,12 @@ const char* nameOf(LocalizationStatus status) {
   return kNames[static_cast<std::size_t>(status)];
 }
 
+double longestSilence(Source source, const LocalizerOptions& options) {
+  if (source == Source::IMU) return std::max(0.5, 2.0 * options.filter.imu_timeout);
+  const bool is_seldom = source == Source::USBL || source == Source::MARKER;
+  return is_seldom ? kSeldom * options.input_timeout : options.input_timeout;
+}
+
 VehicleLocalizer::VehicleLocalizer(const LocalizerOptions& options)
     : options_(options),
       map_(options.filter, Start::AT_FIX),
@@ -110,6 +116,11 @@ std::optional<KnownHeading> VehicleLocalizer::headingAt(Stamp stamp) const {
   return localization::knownHeading(snapshot->stamp, *attitude, snapshot->estimate);
 }
 
+std::optional<double> VehicleLocalizer::sinceUsed(Source source, Stamp now) const {
+  const auto used = used_[static_cast<std::size_t>(source)];
+  return used ? std::make_optional(secondsBetween(*used, now)) : std::nullopt;
+}
+
 bool VehicleLocalizer::isFinite() const {
   return localization::isFinite(map_.snapshot().estimate) &&
          localization::isFinite(odometry_.snapshot().estimate);
@@ -117,16 +128,10 @@ bool VehicleLocalizer::isFinite() const {
 
 // Of the first input that is missed; empty: of none.
 std::string VehicleLocalizer::silence(Stamp now) const {
-  const std::array<std::pair<Source, double>, 4> limits = {
-      {{Source::IMU, std::max(0.5, 2.0 * options_.filter.imu_timeout)},
-       {Source::DVL, options_.input_timeout},
-       {Source::DEPTH, options_.input_timeout},
-       {Source::USBL, kSeldom * options_.input_timeout}}};
-  for (const auto& [source, limit] : limits) {
-    const auto used = used_[static_cast<std::size_t>(source)];
-    if (!used) continue;
-    const double age = secondsBetween(*used, now);
-    if (age > limit) return std::string(nameOf(source)) + " lost " + rounded(age) + " s ago";
+  for (const Source source : {Source::IMU, Source::DVL, Source::DEPTH, Source::USBL}) {
+    const auto age = sinceUsed(source, now);
+    if (age && *age > longestSilence(source, options_))
+      return std::string(nameOf(source)) + " lost " + rounded(*age) + " s ago";
   }
   return {};
 }

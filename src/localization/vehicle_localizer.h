@@ -30,6 +30,9 @@ struct LocalizationReport {
   double angle_deviation = 0.0;  // deg, of the attitude
 };
 
+// How long an input may be silent, s, before it is lost.
+double longestSilence(Source source, const LocalizerOptions& options);
+
 class VehicleLocalizer {
  public:
   // Throws InputError for an option outside its limits.
@@ -58,6 +61,8 @@ class VehicleLocalizer {
   Eigen::Vector3d rateOf(const FilterSnapshot& snapshot) const { return map_.rateOf(snapshot); }
 
   LocalizationReport report(Stamp now) const;
+  // Seconds since the newest of this source that was used; none: none was.
+  std::optional<double> sinceUsed(Source source, Stamp now) const;
 
   // Whether the estimates are numbers; else nothing that comes later mends them.
   bool isFinite() const;

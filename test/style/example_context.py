@@ -150,6 +150,10 @@ CONTEXT = {
     "sensor_messages.h": """#include "localization/vehicle_localizer.h"
         extern SensorMessages::Lookup lookup; extern VehicleLocalizerOptions options; extern sensor_msgs::Imu message;
         extern localization::VehicleLocalizer localizer;""",
+    "input_health.h": """#include <diagnostic_updater/diagnostic_updater.h>
+        extern localization::InputStatistics statistics; extern InputRecord record; extern VehicleLocalizerOptions options;
+        extern diagnostic_updater::DiagnosticStatusWrapper status; using localization::Source;
+        using diagnostic_msgs::DiagnosticStatus;""",
     "other_odometry.h": """extern FrameTransforms transforms; extern OdometryFrames frames; extern ros::Time stamp;
         extern localization::VehicleLocalizer localizer; extern localization::Mounting base;
         void publish(const localization::Mounting&);""",

@@ -8,7 +8,6 @@
 
 #include "grid_path_planner/VehicleLocalizerConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "localization/input_statistics.h"
 #include "localization/measurement_check.h"
 #include "ros/common/incoming/advertised_service.h"
 #include "ros/common/incoming/bounded_subscription.h"
@@ -16,6 +15,7 @@
 #include "ros/common/parameters.h"
 #include "ros/common/scheduling/guarded_timer.h"
 #include "ros/common/scheduling/log_throttle.h"
+#include "ros/localization/inputs/input_health.h"
 #include "ros/localization/other_odometry.h"
 
 namespace grid_path_planner::nodes {
@@ -174,7 +174,7 @@ void VehicleLocalizerNode::offerServices(ros::NodeHandle& private_nh) {
 void VehicleLocalizerNode::startDiagnostics() {
   diagnostics_.add("localization", this, &VehicleLocalizerNode::diagnose);
   for (const Source source : {Source::IMU, Source::DVL, Source::DEPTH, Source::USBL, Source::MARKER,
-                              Source::COMMAND, Source::SET_POSE})
+                              Source::COMMAND, Source::SET_POSE, Source::HEADING})
     diagnostics_.add(nameOf(source),
                      [this, source](diagnostic_updater::DiagnosticStatusWrapper& status) {
                        diagnoseInput(source, status);
@@ -358,23 +358,12 @@ void VehicleLocalizerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper&
 
 void VehicleLocalizerNode::diagnoseInput(Source source,
                                          diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const auto statistics =
-      localization::inputStatistics(localizer_.map(), source, stampOf(ros::Time::now()));
+  const auto now = stampOf(ros::Time::now());
+  auto statistics = localization::inputStatistics(localizer_.map(), source, now);
+  if (!statistics.age) statistics.age = localizer_.sinceUsed(source, now);
   const InputRecord& input = inputs_[source];
-  const bool overconfident =
-      statistics.nis_count > 0 && statistics.nis_mean > statistics.nis_bounds.high;
-  if (input.received() == 0)
-    status.summary(DiagnosticStatus::OK, "not heard");
-  else if (statistics.counts.taken == 0 && statistics.counts.gated == 0 && statistics.age)
-    status.summary(DiagnosticStatus::WARN, "heard, and not used yet");
-  else if (!statistics.age)
-    status.summary(DiagnosticStatus::WARN, "silent, or refused: " + input.reason());
-  else if (statistics.gated > statistics.nis_count)
-    status.summary(DiagnosticStatus::WARN, "most are gated: they contradict the pose");
-  else if (overconfident)
-    status.summary(DiagnosticStatus::WARN, "its errors are larger than its covariance says");
-  else
-    status.summary(DiagnosticStatus::OK, "used");
+  const InputHealth health = healthOf(statistics, input, expectationOf(source, options_));
+  status.summary(health.is_good ? DiagnosticStatus::OK : DiagnosticStatus::WARN, health.sentence);
   status.add("received", input.received());
   status.add("rate (Hz)", statistics.rate);
   status.add("age (s)", statistics.age ? std::to_string(*statistics.age) : "none lately");

@@ -1,0 +1,32 @@
+// What the diagnostics say of an input of vehicle_localizer.
+//
+//   const InputHealth health = healthOf(statistics, record, expectationOf(Source::DVL, options));
+//   status.summary(health.is_good ? DiagnosticStatus::OK : DiagnosticStatus::WARN, health.sentence);
+#pragma once
+
+#include <string>
+
+#include "localization/input_statistics.h"
+#include "ros/common/incoming/input_record.h"
+#include "ros/localization/vehicle_localizer_options.h"
+
+namespace grid_path_planner::nodes {
+
+struct InputExpectation {
+  double silent_after;  // s, infinite: it comes when somebody wants
+  bool is_missed;       // when it is silent
+  bool is_spare;        // used only where another input is lost
+};
+
+InputExpectation expectationOf(localization::Source source, const VehicleLocalizerOptions& options);
+
+struct InputHealth {
+  bool is_good;
+  std::string sentence;
+};
+
+// The age in `statistics` is that of the newest measurement, or where the history has none of the newest that was used.
+InputHealth healthOf(const localization::InputStatistics& statistics, const InputRecord& record,
+                     const InputExpectation& expectation);
+
+}  // namespace grid_path_planner::nodes
