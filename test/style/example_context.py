@@ -154,6 +154,7 @@ CONTEXT = {
         extern localization::InputStatistics statistics; extern InputRecord record; extern VehicleLocalizerOptions options;
         extern diagnostic_updater::DiagnosticStatusWrapper status; using localization::Source;
         using diagnostic_msgs::DiagnosticStatus;""",
+    "vehicle_frames.h": "extern FrameTransforms transforms;",
     "other_odometry.h": """extern FrameTransforms transforms; extern OdometryFrames frames; extern ros::Time stamp;
         extern localization::VehicleLocalizer localizer; extern localization::Mounting base;
         void publish(const localization::Mounting&);""",

@@ -68,6 +68,15 @@ std::string rootOf(const std::vector<geometry_msgs::TransformStamped>& links,
   return links.empty() ? frame : links.back().header.frame_id;
 }
 
+// What leads above both of two frames.
+void dropCommon(std::vector<geometry_msgs::TransformStamped>& up,
+                std::vector<geometry_msgs::TransformStamped>& down) {
+  while (!up.empty() && !down.empty() && up.back().child_frame_id == down.back().child_frame_id) {
+    up.pop_back();
+    down.pop_back();
+  }
+}
+
 // Of the transforms between two frames the one whose newest is oldest, where that is no static one; none where nothing
 // joins them.
 std::optional<geometry_msgs::TransformStamped> oldestBetween(const tf2_ros::Buffer& buffer,
@@ -75,11 +84,7 @@ std::optional<geometry_msgs::TransformStamped> oldestBetween(const tf2_ros::Buff
                                                              const std::string& other) {
   auto up = linksAbove(buffer, one), down = linksAbove(buffer, other);
   if (rootOf(up, one) != rootOf(down, other)) return std::nullopt;
-  while (!up.empty() && !down.empty() &&
-         up.back().child_frame_id == down.back().child_frame_id) {  // above both
-    up.pop_back();
-    down.pop_back();
-  }
+  dropCommon(up, down);
   up.insert(up.end(), down.begin(), down.end());
   std::optional<geometry_msgs::TransformStamped> oldest;
   for (const auto& link : up)
@@ -239,6 +244,18 @@ std::string FrameLookup::commonFrame(const std::string& one, const std::string& 
        a != up.rend() && b != down.rend() && a->child_frame_id == b->child_frame_id; ++a, ++b)
     common = a->child_frame_id;
   return common;
+}
+
+std::vector<std::string> FrameLookup::framesBetween(const std::string& one,
+                                                    const std::string& other) const {
+  auto up = linksAbove(buffer_, one), down = linksAbove(buffer_, other);
+  if (rootOf(up, one) != rootOf(down, other)) return {};
+  dropCommon(up, down);
+  std::vector<std::string> frames = {one, other};
+  for (const auto* links : {&up, &down})
+    for (const geometry_msgs::TransformStamped& link : *links)
+      frames.push_back(link.header.frame_id);
+  return frames;
 }
 
 bool FrameLookup::movesWith(const std::string& vehicle, const std::string& frame) const {

@@ -76,6 +76,9 @@ class FrameLookup {
   // The frame by which tf joins the two: above both, or one of them; empty where nothing does.
   std::string commonFrame(const std::string& one, const std::string& other) const;
 
+  // The frames by which tf leads from one to the other, both and commonFrame() included; none where nothing joins them.
+  std::vector<std::string> framesBetween(const std::string& one, const std::string& other) const;
+
   // Points of the frame `from` in the frame `to`. Throws TransformError.
   std::vector<Eigen::Vector3d> pointsIn(const std::string& to, const std::string& from,
                                         std::vector<Eigen::Vector3d> points) const;

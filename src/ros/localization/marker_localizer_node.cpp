@@ -33,6 +33,7 @@ constexpr double kSilent = 2.0;  // s without an image
 
 void nameFrames(MarkerLocalizerOptions& options) {
   options.map_frame = frameName(options.map_frame);
+  options.odom_frame = frameName(options.odom_frame);
   options.base_frame = frameName(options.base_frame);
 }
 
@@ -138,8 +139,9 @@ void MarkerLocalizerNode::use(MarkerLocalizerOptions options) {
   nameFrames(options);
   checkMarkerLocalizerOptions(options);
   if (options.layout != options_.layout || options.map_frame != options_.map_frame ||
-      options.base_frame != options_.base_frame)
-    throw InputError("layout, map_frame and base_frame cannot be changed while the node runs");
+      options.odom_frame != options_.odom_frame || options.base_frame != options_.base_frame)
+    throw InputError(
+        "layout, map_frame, odom_frame and base_frame cannot be changed while the node runs");
   const bool forgets = options_.panel_known && !options.panel_known;
   options_ = options;
   {

@@ -25,6 +25,7 @@ struct MarkerLocalizerOptions {
   double prediction_wait = 0.1;       // s
   double max_age = 5.0;               // s
   std::string map_frame = "map";
+  std::string odom_frame = "odom";
   std::string base_frame = "base_link";
   base::ReadOptions reading;
 };
@@ -65,6 +66,10 @@ void visitOptions(MarkerLocalizerOptions& o, Visitor&& visit) {
                    10.0});
   visit("max_age", o.max_age, OptionInfo{"Older images are refused", "s", 0.01, 1000.0});
   visit("map_frame", o.map_frame, OptionInfo{"Frame of the map", ""}.under("Frames"));
+  visit("odom_frame", o.odom_frame,
+        OptionInfo{"Frame of the odometry: a camera that tf joins to the vehicle by it, or by "
+                   "map_frame, is refused",
+                   ""});
   visit("base_frame", o.base_frame, OptionInfo{"Frame of the vehicle", ""});
   visitOptions(o.reading, visit);
 }

@@ -7,6 +7,7 @@
 #include "localization/measurement_check.h"
 #include "ros/common/network_text.h"
 #include "ros/localization/camera_messages.h"
+#include "ros/localization/inputs/vehicle_frames.h"
 
 namespace grid_path_planner::nodes {
 
@@ -44,8 +45,7 @@ Isometry3d baseFromCamera(const MarkerImage& image, const FrameTransforms& trans
       transforms.waitFor(o.base_frame, frame, ros::Time(0), o.prediction_wait, stop).transform);
   localization::checkMounting(mounting);
   // Through the map it would be where tf has the vehicle, and confirm whatever that is.
-  if (transforms.commonFrame(o.base_frame, frame) == o.map_frame)
-    throw InputError("tf has its frame '" + frame + "' in " + o.map_frame + ", not on the vehicle");
+  checkOnVehicle(transforms, o.base_frame, frame, {o.map_frame, o.odom_frame});
   return isometryOf(mounting);
 }
 

@@ -16,6 +16,7 @@
 #include "ros/common/scheduling/guarded_timer.h"
 #include "ros/common/scheduling/log_throttle.h"
 #include "ros/localization/inputs/input_health.h"
+#include "ros/localization/inputs/vehicle_frames.h"
 #include "ros/localization/other_odometry.h"
 
 namespace grid_path_planner::nodes {
@@ -118,10 +119,7 @@ VehicleLocalizerNode::~VehicleLocalizerNode() {
 geometry_msgs::Transform VehicleLocalizerNode::placeOnVehicle(const std::string& target,
                                                               const std::string& source) const {
   const auto found = transforms_.transform(target, source).transform;
-  const std::string common = transforms_.commonFrame(target, source);
-  if (common == options_.map_frame || common == options_.odom_frame)
-    throw InputError("tf has '" + source + "' in " + common + ", not on the vehicle of '" + target +
-                     "'");
+  checkOnVehicle(transforms_, target, source, {options_.map_frame, options_.odom_frame});
   return found;
 }
 

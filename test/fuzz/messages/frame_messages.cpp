@@ -59,6 +59,7 @@ void askFrames(const nodes::FrameLookup& frames, const nav_msgs::Path& path) {
     mayFail([&] { frames.poseIn("map", pose, "map", 0.0, {}); });
   mayFail([&] { frames.recentPoseOf("base_link", "map", kNowOfFrames, 0.5); });
   frames.commonFrame("base_link", "dock");
+  frames.framesBetween("base_link", "dock");
 }
 
 FUZZ_TARGET(frame_messages, seedsOfFrames) {

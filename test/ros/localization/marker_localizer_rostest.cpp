@@ -267,17 +267,21 @@ TEST_F(MarkerLocalizerTest, ImagesThatCannotBeUsedAreRefusedAndNothingIsLost) {
 // The pose of tf came back as that of the panel, 3 m off as tf was, known to a centimetre.
 TEST_F(MarkerLocalizerTest, ACameraThatTfHasInTheMapConfirmsNothing) {
   tf2_ros::StaticTransformBroadcaster fixed;
-  fixed.sendTransform(
-      stampedTransform("map", "fixed_camera", mapFromBase() * baseFromCamera(), ros::Time::now()));
+  const ros::Time now = ros::Time::now();
+  fixed.sendTransform(std::vector<geometry_msgs::TransformStamped>{
+      stampedTransform("map", "fixed_camera", mapFromBase() * baseFromCamera(), now),
+      stampedTransform("earth", "map", Isometry3d::Identity(), now),
+      stampedTransform("earth", "ship_camera", mapFromBase() * baseFromCamera(), now)});
   frames_.say(Eigen::Translation3d(3.0, 0.0, 0.0) * mapFromBase());
   start();
-  expectRefused(
-      [&] {
-        Image wrong = image();
-        wrong.header.frame_id = "fixed_camera";
-        return wrong;
-      },
-      "tf has its frame 'fixed_camera' in map, not on the vehicle");
+  for (const std::string frame : {"fixed_camera", "ship_camera"})
+    expectRefused(
+        [&] {
+          Image wrong = image();
+          wrong.header.frame_id = frame;
+          return wrong;
+        },
+        "tf has '" + frame + "' by map, not on the vehicle");
 }
 
 TEST_F(MarkerLocalizerTest, ACalibrationThatIsNoneIsRefusedAndTheOneBeforeStays) {

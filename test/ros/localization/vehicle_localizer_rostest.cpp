@@ -251,17 +251,23 @@ TEST_F(VehicleLocalizerTest, ASensorThatTfHasInTheMapIsRefused) {
   in_map.header.frame_id = "map";
   in_map.child_frame_id = "fixed_dvl";
   in_map.transform.rotation.w = 1.0;
-  fixed.sendTransform(in_map);
+  geometry_msgs::TransformStamped map_in_earth = in_map, on_ship = in_map;
+  map_in_earth.header.frame_id = on_ship.header.frame_id = "earth";
+  map_in_earth.child_frame_id = "map";
+  on_ship.child_frame_id = "ship_dvl";
+  fixed.sendTransform(std::vector<geometry_msgs::TransformStamped>{in_map, map_in_earth, on_ship});
   ros::Publisher others = nh_.advertise<geometry_msgs::TwistWithCovarianceStamped>("dvl/twist", 1);
   start();
   ASSERT_TRUE(hasStatus("OK"));
-  EXPECT_TRUE(waitFor([&] {
+  const auto refuses = [&](const std::string& frame) {
     const ros::Time now = ros::Time::now();
     auto twist = stream_.dvl(now, live_->secondsAt(now));
-    twist.header.frame_id = "fixed_dvl";
+    twist.header.frame_id = frame;
     others.publish(twist);
-    return node_->hasSaid("tf has 'fixed_dvl' in map, not on the vehicle");
-  })) << node_->output();
+    return node_->hasSaid("tf has '" + frame + "' by map, not on the vehicle");
+  };
+  for (const char* frame : {"fixed_dvl", "ship_dvl"})
+    EXPECT_TRUE(waitFor([&] { return refuses(frame); })) << node_->output();
 }
 
 // 1.2 s may be written as 0 s and 1.2e9 ns, which roscpp compares and adds as another time.

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "ros/common/frame_transforms.h"
 
@@ -31,6 +34,36 @@ TEST(FrameLookup, SaysThatATimeFarFromAllOfTfIsNoneOfIt) {
     EXPECT_THROW(lookup.poseIn("map", pose, "map", 0.0, {}), TransformError) << asked;
     EXPECT_THROW(lookup.transform("map", "odom", pose.header.stamp), TransformError) << asked;
   }
+}
+
+void join(FrameLookup& lookup, const std::string& parent, const std::string& child) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = ros::Time(10, 0);
+  transform.header.frame_id = parent;
+  transform.child_frame_id = child;
+  transform.transform.rotation.w = 1.0;
+  lookup.buffer().setTransform(transform, "test", true);
+}
+
+// earth -> map -> odom -> base_link -> imu_link, earth -> ship -> usbl
+TEST(FrameLookup, TellsTheFramesByWhichOneLeadsToAnother) {
+  FrameLookup lookup;
+  for (const auto& [parent, child] :
+       {std::pair("earth", "map"), std::pair("map", "odom"), std::pair("odom", "base_link"),
+        std::pair("base_link", "imu_link"), std::pair("base_link", "dvl_link"),
+        std::pair("earth", "ship"), std::pair("ship", "usbl"), std::pair("other", "alone")})
+    join(lookup, parent, child);
+  const auto between = [&](const char* one, const char* other) {
+    const std::vector<std::string> frames = lookup.framesBetween(one, other);
+    return std::set<std::string>(frames.begin(), frames.end());
+  };
+  using Frames = std::set<std::string>;
+  EXPECT_EQ(between("imu_link", "dvl_link"), (Frames{"imu_link", "base_link", "dvl_link"}));
+  EXPECT_EQ(between("base_link", "imu_link"), (Frames{"base_link", "imu_link"}));
+  EXPECT_EQ(between("odom", "map"), (Frames{"odom", "map"}));
+  EXPECT_EQ(between("imu_link", "usbl"),
+            (Frames{"imu_link", "base_link", "odom", "map", "earth", "ship", "usbl"}));
+  EXPECT_EQ(between("imu_link", "alone"), Frames{});
 }
 
 }  // namespace
