@@ -150,14 +150,6 @@ CONTEXT = {
     "sensor_messages.h": """#include "localization/vehicle_localizer.h"
         extern SensorMessages::Lookup lookup; extern VehicleLocalizerOptions options; extern sensor_msgs::Imu message;
         extern localization::VehicleLocalizer localizer;""",
-    "input_health.h": """#include <diagnostic_updater/diagnostic_updater.h>
-        extern localization::InputStatistics statistics; extern InputRecord record; extern VehicleLocalizerOptions options;
-        extern diagnostic_updater::DiagnosticStatusWrapper status; using localization::Source;
-        using diagnostic_msgs::DiagnosticStatus;""",
-    "vehicle_frames.h": "extern FrameTransforms transforms;",
-    "other_odometry.h": """extern FrameTransforms transforms; extern OdometryFrames frames; extern ros::Time stamp;
-        extern localization::VehicleLocalizer localizer; extern localization::Mounting base;
-        void publish(const localization::Mounting&);""",
     "transform_rivals.h": "extern ros::Time stamp; extern std::string child; void beSilent(const std::string&);"
                           "extern const tf2_msgs::TFMessage& message; extern std::string node; extern bool is_static;",
     "input_log.h": "extern std::exception error; using localization::Source;",

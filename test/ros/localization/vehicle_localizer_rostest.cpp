@@ -284,7 +284,8 @@ TEST_F(VehicleLocalizerTest, AStampIsPublishedWithLessThanASecondOfNanoseconds) 
     imu.header.stamp.nsec += 1'000'000'000;
     others.publish(imu);
     sent.insert(now);
-    return sent.count(filtered_.all().back().header.stamp) > 0;
+    const auto all = filtered_.all();
+    return !all.empty() && sent.count(all.back().header.stamp) > 0;
   })) << node_->output();
   for (const nav_msgs::Odometry& odometry : filtered_.all())
     ASSERT_LT(odometry.header.stamp.nsec, 1'000'000'000u);

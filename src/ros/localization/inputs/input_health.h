@@ -1,7 +1,4 @@
 // What the diagnostics say of an input of vehicle_localizer.
-//
-//   const InputHealth health = healthOf(statistics, record, expectationOf(Source::DVL, options));
-//   status.summary(health.is_good ? DiagnosticStatus::OK : DiagnosticStatus::WARN, health.sentence);
 #pragma once
 
 #include <string>

@@ -1,6 +1,4 @@
 // Whether tf has a sensor on the vehicle, and not where the estimate has the vehicle.
-//
-//   checkOnVehicle(transforms, "base_link", "usbl_link", {"map", "odom"});      // throws base::InputError
 #pragma once
 
 #include <string>
