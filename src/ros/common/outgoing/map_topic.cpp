@@ -1,5 +1,7 @@
 #include "ros/common/outgoing/map_topic.h"
 
+#include <ros/single_subscriber_publisher.h>
+
 #include <algorithm>
 #include <utility>
 
