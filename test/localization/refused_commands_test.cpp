@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "localization/support/simulated_sensors.h"
 #include "localization/vehicle_localizer.h"
@@ -25,23 +26,25 @@ std::vector<Measurement> disobeyed(SimulatedSensors& sensors, double to, double 
   return all;
 }
 
+// At 24 s, without a DVL until then.
+LaggedFilter filterOfDisobeyed(unsigned seed, double to, std::optional<double> command_period) {
+  SimulatedSensors sensors(seed);
+  FilterOptions options = sensors.options;
+  options.command_period = command_period.value_or(options.command_period);
+  LaggedFilter filter(options, Start::AT_FIX);
+  for (const Measurement& measurement : disobeyed(sensors, to, 30.0, 24.0)) filter.add(measurement);
+  return filter;
+}
+
 // One that was gated did not count as tried: five in a tenth of a second "agreed", and the velocity began anew by them.
 TEST(Commands, ThatAreGatedAreTriedOnceInAPeriodAndBeginNothingAnew) {
-  SimulatedSensors sensors(24);
-  LaggedFilter filter(sensors.options, Start::AT_FIX);
-  for (const Measurement& measurement : disobeyed(sensors, 21.5, 30.0, 24.0))
-    filter.add(measurement);
+  const LaggedFilter filter = filterOfDisobeyed(24, 21.5, {});
   EXPECT_EQ(filter.counts(Source::COMMAND).gated, 1u);
   EXPECT_EQ(filter.counts(Source::COMMAND).resets, 0u);
 }
 
 TEST(Commands, BeginNothingAnewHoweverManyAgree) {
-  SimulatedSensors sensors(25);
-  FilterOptions options = sensors.options;
-  options.command_period = 0.1;
-  LaggedFilter filter(options, Start::AT_FIX);
-  for (const Measurement& measurement : disobeyed(sensors, 23.0, 30.0, 24.0))
-    filter.add(measurement);
+  const LaggedFilter filter = filterOfDisobeyed(25, 23.0, 0.1);
   EXPECT_GE(filter.counts(Source::COMMAND).gated, 6u);
   EXPECT_EQ(filter.counts(Source::COMMAND).resets, 0u);
 }

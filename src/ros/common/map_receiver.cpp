@@ -167,7 +167,8 @@ MapChange MapReceiver::use(const MapEvent& event) {
   const bool has_lost =
       sender == latest().publisher && !sent.isZero() && sent <= lost_at_ && lost_at_ <= now;
   // Of those that were sent after a map that was announced, the places are others in one from before.
-  const bool is_before = isAwaited(sender) && sent < announced_->stamp;
+  const bool is_before =
+      isAwaited(sender) && sent < announced_->stamp && asked_at_ < announced_->came;
   const auto newer =
       recent_.since(sender, sent, now, is_before ? announced_->stamp : ros::TIME_MAX);
   auto changed =
@@ -258,10 +259,12 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   on_heartbeat_();
 }
 
-// Unless the map came before it; but where ROS time went back, that was another one.
+// Unless the map came before it; but where ROS time went back, that was another one. What another node than the map's
+// announces says nothing of the map.
 void MapReceiver::noteAnnouncement(const UpdateEvent& event) {
   const ros::Time stamp = event.getConstMessage()->header.stamp, now = ros::Time::now();
   const std::string publisher = event.getPublisherName();
+  if (latest().grid && latest().publisher != publisher) return;
   const bool came = publisher == whole_of_ && stamp <= whole_stamp_ && whole_heard_ <= now;
   if (!came && !stamp.isZero()) announced_ = {publisher, stamp, now, Clock::now()};
 }

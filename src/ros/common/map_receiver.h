@@ -12,7 +12,8 @@
 // A piece without cells (0x0) is a heartbeat: it changes nothing and is accepted before there is a
 // map; only its stamp, who sent it and when it came are kept.
 //
-// Updates that follow the announcement of a map of another place or size (outgoing/map_announcement.h) wait for that map.
+// Updates that follow the announcement of a map of another place or size (outgoing/map_announcement.h) wait for that map, or
+// for the next one after it was asked for. Announcements count of the map's own publisher only.
 //
 // Of updates that come faster than they are applied at most 64 MB wait; the oldest are lost first. A whole map that updates
 // overtook, which have connections of their own, is taken with these (incoming/recent_updates.h).

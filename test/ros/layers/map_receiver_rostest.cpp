@@ -72,6 +72,13 @@ class MapReceiverTest : public testing::Test {
     const auto map = receiver_.latest();
     return map.grid ? map.grid->values() : std::vector<std::int8_t>();
   }
+  // With a wall in its last column; it is there when this returns.
+  nav_msgs::OccupancyGrid firstMap(double age) {
+    const auto map = mapAt(0.0, {"....#"}, age);
+    maps_.publish(map);
+    EXPECT_TRUE(hasCome(map));
+    return map;
+  }
   bool hasCome(const nav_msgs::OccupancyGrid& map) {
     return comes([&] { return values() == map.data; });
   }
@@ -90,9 +97,7 @@ class MapReceiverTest : public testing::Test {
 // By the code, an update that overtook the map of another place was laid at its column and row of the map before: free cells
 // upon a wall, until the map was there.
 TEST_F(MapReceiverTest, AnUpdateOfAMapOfAnotherPlaceWaitsForIt) {
-  const auto before = mapAt(0.0, {"....#"}, 5.0);
-  maps_.publish(before);
-  ASSERT_TRUE(hasCome(before));
+  const auto before = firstMap(5.0);
   const auto grown = mapAt(-4.0, {"........#"}, 3.0);
   send(announcementOf(grown));
   send(cellAt(4, 0, 2.0));
@@ -108,9 +113,7 @@ TEST_F(MapReceiverTest, AnUpdateOfAMapOfAnotherPlaceWaitsForIt) {
 }
 
 TEST_F(MapReceiverTest, AMapFromBeforeTheAnnouncedOneIsTakenWithoutWhatFollowed) {
-  const auto before = mapAt(0.0, {"....#"}, 9.0);
-  maps_.publish(before);
-  ASSERT_TRUE(hasCome(before));
+  firstMap(9.0);
   send(cellAt(1, 100, 6.0));
   send(announcementOf(mapAt(-4.0, {"........#"}, 5.0)));
   send(cellAt(4, 0, 4.0));
@@ -122,9 +125,7 @@ TEST_F(MapReceiverTest, AMapFromBeforeTheAnnouncedOneIsTakenWithoutWhatFollowed)
 }
 
 TEST_F(MapReceiverTest, AMapThatCameBeforeItsAnnouncementIsNotAwaited) {
-  const auto before = mapAt(0.0, {"....#"}, 5.0);
-  maps_.publish(before);
-  ASSERT_TRUE(hasCome(before));
+  const auto before = firstMap(5.0);
   send(announcementOf(before));
   send(cellAt(0, 100, 1.0));
   ASSERT_TRUE(isTaken());
@@ -132,9 +133,7 @@ TEST_F(MapReceiverTest, AMapThatCameBeforeItsAnnouncementIsNotAwaited) {
 }
 
 TEST_F(MapReceiverTest, AnAnnouncedMapThatDoesNotComeIsLost) {
-  const auto before = mapAt(0.0, {"....#"}, 5.0);
-  maps_.publish(before);
-  ASSERT_TRUE(hasCome(before));
+  firstMap(5.0);
   send(announcementOf(mapAt(-4.0, {"........#"}, 3.0)));
   EXPECT_TRUE(comes([&] { return receiver_.lost().find("announced") != std::string::npos; }));
   EXPECT_TRUE(comes([&] { return links_ > 1; })) << "asked for";
@@ -144,11 +143,25 @@ TEST_F(MapReceiverTest, AnAnnouncedMapThatDoesNotComeIsLost) {
   EXPECT_EQ(receiver_.lost(), "");
 }
 
+// By its stamp no map would ever be the one that was announced.
+TEST_F(MapReceiverTest, AnAnnouncementFromTheFutureIsOverWithTheMapThatWasAskedFor) {
+  firstMap(5.0);
+  auto announcement = announcementOf(mapAt(-4.0, {"........#"}, 3.0));
+  announcement.header.stamp = ros::TIME_MAX;
+  send(announcement);
+  ASSERT_TRUE(comes([&] { return links_ > 1; }));
+  const auto asked = mapAt(-4.0, {"........#"}, 0.0);
+  maps_.publish(asked);
+  ASSERT_TRUE(hasCome(asked));
+  send(cellAt(0, 100, 0.0));
+  ASSERT_TRUE(isTaken());
+  EXPECT_EQ(values(), mapAt(-4.0, {"#.......#"}, 0.0).data);
+  EXPECT_EQ(receiver_.lost(), "");
+}
+
 // Lost soon after a whole map was asked for, and nothing followed: it was not asked for again, and the vehicle stood for good.
 TEST_F(MapReceiverTest, AnUpdateThatIsLostSoonAfterAnotherIsAskedForAgain) {
-  const auto before = mapAt(0.0, {"....#"}, 5.0);
-  maps_.publish(before);
-  ASSERT_TRUE(hasCome(before));
+  firstMap(5.0);
   send(cellAt(0, 0, 4.0));
   ++number_;
   send(cellAt(1, 0, 3.0));
@@ -163,9 +176,7 @@ TEST_F(MapReceiverTest, AnUpdateThatIsLostSoonAfterAnotherIsAskedForAgain) {
 
 // A map that was refused had all updates forgotten that a good one was to be taken with.
 TEST_F(MapReceiverTest, AMapThatIsRefusedTakesNothingWithIt) {
-  const auto before = mapAt(0.0, {"....#"}, 5.0);
-  maps_.publish(before);
-  ASSERT_TRUE(hasCome(before));
+  firstMap(5.0);
   send(cellAt(0, 100, 1.0));
   ASSERT_TRUE(isTaken());
   auto bad = mapAt(0.0, {"....#"}, 0.0);

@@ -6,6 +6,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
+#include "ros/simulation/transform_message.h"
 #include "ros/support/latest.h"
 #include "ros/support/process.h"
 #include "ros/support/sensor_stream.h"
@@ -28,19 +29,9 @@ class LocalizerBesideADriver : public testing::Test {
   }
   // As the driver would, without errors.
   void drive() {
-    geometry_msgs::TransformStamped message;
-    message.header.stamp = ros::Time::now();
-    message.header.frame_id = "odom";
-    message.child_frame_id = "base_link";
-    const Isometry3d pose = map_from_odometry_.inverse() * truthAt(message.header.stamp);
-    const Eigen::Quaterniond q(pose.linear());
-    message.transform.translation.x = pose.translation().x();
-    message.transform.translation.y = pose.translation().y();
-    message.transform.translation.z = pose.translation().z();
-    message.transform.rotation.w = q.w();
-    message.transform.rotation.x = q.x();
-    message.transform.rotation.y = q.y();
-    message.transform.rotation.z = q.z();
+    const ros::Time now = ros::Time::now();
+    auto message = transformOf("odom", "base_link", map_from_odometry_.inverse() * truthAt(now));
+    message.header.stamp = now;
     broadcaster_.sendTransform(message);
   }
   // Metres by which tf has a point of the vehicle, a metre ahead, elsewhere; none where it does not know.

@@ -90,8 +90,8 @@ class EveryCommanderMaster(CommanderTest):
             self.goes_on_says_so_and_stands(name, "die")
 
     def test_one_that_is_slow_when_a_node_ends_keeps_none_of_its_names(self):
-        """By the code, a node that had given its names back when the master's answer to an earlier question came, that it does
-        not know this node, was registered again, and stayed so."""
+        """A node that is told after it gave its names back that the master does not know it is not to be registered again. What
+        it was before was not seen to do so either."""
         for name in COMMANDERS:
             master = SlowMaster(rosgraph.get_master_uri(), SLOW, MANY, method="lookupNode")
             self.addCleanup(master.end)

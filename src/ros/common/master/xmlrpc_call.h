@@ -4,7 +4,7 @@
 //
 // roscpp's own calls wait for ever for one who accepts a connection and does not answer. The name of
 // a host is still looked up for as long as the system likes, so this is called in a thread that
-// nothing waits for.
+// nothing waits for; but by the panel for rviz, where somebody has just changed its namespace.
 #pragma once
 
 #include <xmlrpcpp/XmlRpcValue.h>

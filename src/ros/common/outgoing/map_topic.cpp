@@ -85,8 +85,8 @@ bool MapTopic::wholeMapIsDue(double period) const {
   return updated_ && passed.count() >= period;
 }
 
-// Than the map that was sent last.
-bool MapTopic::liesElsewhere(const nav_msgs::OccupancyGrid& map) {
+// Whether it lies elsewhere than the map that was sent last, which it is from now on.
+bool MapTopic::changesPlace(const nav_msgs::OccupancyGrid& map) {
   nav_msgs::OccupancyGrid place;
   place.header.frame_id = map.header.frame_id;
   place.info = map.info;
@@ -96,7 +96,7 @@ bool MapTopic::liesElsewhere(const nav_msgs::OccupancyGrid& map) {
 }
 
 void MapTopic::send(const nav_msgs::OccupancyGrid& map) {
-  if (liesElsewhere(map) && !map.header.stamp.isZero()) updates_.publish(announcementOf(map));
+  if (changesPlace(map) && !map.header.stamp.isZero()) updates_.publish(announcementOf(map));
   maps_.publish(map);
   std::lock_guard<std::mutex> lock(mutex_);
   updated_ = false;

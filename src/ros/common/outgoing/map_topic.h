@@ -59,7 +59,7 @@ class MapTopic {
  private:
   using Subscribers = std::multiset<std::string>;
 
-  bool liesElsewhere(const nav_msgs::OccupancyGrid& map);
+  bool changesPlace(const nav_msgs::OccupancyGrid& map);
   ros::SubscriberStatusCallback adding(Subscribers& to);
   ros::SubscriberStatusCallback removing(Subscribers& from);
 
