@@ -8,6 +8,7 @@
 #include <random>
 
 #include "flights/flight_pilot.h"
+#include "flights/flight_steps.h"
 #include "flights/sight_audit.h"
 #include "grid_path_planner/simulation/vehicle.h"
 
@@ -65,13 +66,6 @@ class BitsHash {
   std::uint64_t hash_ = 14695981039346656037u;
 };
 
-int stepsOf(double period, double step, const char* what) {
-  const double steps = period / step;
-  if (std::abs(steps - std::round(steps)) > 1e-6 || steps < 0.5)
-    throw InputError(std::string("the period of ") + what + " must be whole steps of the vehicle");
-  return static_cast<int>(std::lround(steps));
-}
-
 bool gaveUp(PilotStatus status) {
   return status == PilotStatus::STUCK || status == PilotStatus::GOAL_OCCUPIED ||
          status == PilotStatus::CANCELLED || status == PilotStatus::TRANSFORM_ERROR;
@@ -90,8 +84,7 @@ class Flight {
         audit_(*setup.world(), study_.camera, study_.vehicle.vehicle_radius, start_.position,
                variant_.pilot.start_clear),
         pilot_(makeFlightPilot(study_, variant_, setup.camera().intrinsics(), log)),
-        command_steps_(stepsOf(1.0 / study_.command_rate, study_.vehicle.time_step, "commands")),
-        frame_steps_(stepsOf(1.0 / study_.camera.rate, study_.vehicle.time_step, "frames")),
+        steps_(flightSteps(study_)),
         first_frame_(static_cast<std::uint64_t>(seed) << 32),
         watch_(watch) {
     vehicle_.setWorld(setup.world());
@@ -106,7 +99,7 @@ class Flight {
   FlightRecord fly() {
     const auto steps = static_cast<long>(std::lround(study_.time_limit / study_.vehicle.time_step));
     for (long step = 0; step < steps && !ended_; ++step) {
-      if (step % command_steps_ == 0) command(step);
+      if (step % steps_.command == 0) command(step);
       if (!ended_) advance();
     }
     if (!ended_) end(FlightEnd::TIMEOUT, "the limit of time");
@@ -142,7 +135,7 @@ class Flight {
 
   void command(long step) {
     const VehicleState measured = odometry_.measured();
-    const bool with_frame = step % frame_steps_ == 0;
+    const bool with_frame = step % steps_.frame == 0;
     PilotInput input;
     input.time = vehicle_.time();
     input.pose = VehiclePose{measured.position, measured.yaw};
@@ -252,7 +245,7 @@ class Flight {
   DeadReckoning odometry_;
   SightAudit audit_;
   std::unique_ptr<FlightPilot> pilot_;
-  int command_steps_, frame_steps_;
+  FlightSteps steps_;
   std::uint64_t first_frame_;
   const FlightWatch& watch_;
   Frame frame_;

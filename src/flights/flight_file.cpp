@@ -2,11 +2,13 @@
 #include <cstdio>
 #include <set>
 
+#include "flights/flight_steps.h"
 #include "flights/flight_study.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/base/yaml_file.h"
 #include "study/file/study_nodes.h"
+#include "study/run_folder.h"
 #include "study/study_yaml.h"
 
 namespace grid_path_planner::flights {
@@ -107,6 +109,8 @@ class FlightReader {
   void readSetting(const YAML::Node& root) {
     if (root["vehicle"]) readVehicle(nodes_.resolved(root["vehicle"], "vehicle"));
     study_.command_rate = number(root, "command_rate", 1.0, 1000.0, study_.command_rate);
+    nodes_.atLine(root["command_rate"] ? root["command_rate"] : root,
+                  [this] { flightSteps(study_); });
     const auto start = numbersOf(yamlNode(root, "start", file_, "x, y, z, yaw"), "start", 4);
     study_.start = {start[0], start[1], start[2]};
     study_.start_yaw = start[3];
@@ -234,6 +238,19 @@ class FlightReader {
     for (const FlightVariant& variant : study_.variants)
       if (!labels.insert(variant.label()).second)
         throw yamlError(list, file_, "configurations has '" + variant.label() + "' twice");
+    refuseSamePictures(list);
+  }
+
+  void refuseSamePictures(const YAML::Node& node) const {
+    std::set<std::string> files;
+    for (const FlightVariant& variant : study_.variants)
+      for (const FlightWorld& world : study_.worlds) {
+        const std::string title = pictureTitle(variant, world);
+        if (!files.insert(study::fileNameOf(title)).second)
+          throw yamlError(node, file_,
+                          "'" + title + "' has the file of another one: above_" +
+                              study::fileNameOf(title) + ".svg");
+      }
   }
 
   void readPublished(const YAML::Node& node) {
@@ -263,8 +280,15 @@ class FlightReader {
     const YAML::Node list = nodes_.entriesOf(node, "a pair");
     if (list.size() != 2)
       throw yamlError(node, file_, "a pair must be two names, worse and better");
-    return {yamlAs<std::string>(list[0], "a pair", file_, "a name"),
-            yamlAs<std::string>(list[1], "a pair", file_, "a name")};
+    return {configurationOf(list[0]), configurationOf(list[1])};
+  }
+
+  // The name of one that is flown. Precondition: these are read.
+  std::string configurationOf(const YAML::Node& node) const {
+    const auto name = yamlAs<std::string>(node, "a pair", file_, "a name");
+    for (const FlightVariant& variant : study_.variants)
+      if (variant.name == name) return name;
+    throw yamlError(node, file_, "a pair names '" + name + "', which is no configuration");
   }
 
   std::string file_;

@@ -1,23 +1,38 @@
 #include "flights/flight_plan.h"
 
+#include <filesystem>
 #include <sstream>
 
-#include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/simulation/world.h"
+#include "simulation/mesh_bytes.h"
 #include "sources_hash.h"
+#include "study/fingerprint.h"
 
 namespace grid_path_planner::flights {
 
 using base::InputError, base::optionText;
+using study::Fingerprint;
 
 namespace {
 
-constexpr std::size_t kLargestWorld = std::size_t{256} << 20;
+void addVariant(const FlightVariant& variant, Fingerprint& print) {
+  print.addText(variant.name);
+  print.addNumber(std::int64_t{variant.first_seed});
+  print.addNumber(std::int64_t{variant.flights});
+  print.addText(optionText(variant.pilot));
+  for (const std::string& word : variant.program) {
+    print.addText(word);
+    std::error_code nothing_there;
+    if (std::filesystem::is_regular_file(word, nothing_there)) print.addFile(word);
+  }
+}
 
-void describeVariant(const FlightVariant& variant, std::ostream& text) {
-  text << variant.name << ' ' << variant.first_seed << ' ' << variant.flights << '\n'
-       << optionText(variant.pilot);
-  for (const std::string& word : variant.program) text << word << '\n';
+// As it is flown in: with the meshes and models that its file names, wherever they lie.
+void addWorld(const FlightWorld& world, Fingerprint& print) {
+  const auto read = simulation::readWorld(world.file, base::ReadLimits::ofProcessorTime());
+  print.addText(world.name);
+  print.addText(bytesOf(simulation::WorldMeshes{read.solid(), read.visible()}));
 }
 
 void describeBody(const simulation::MovingBody& body, std::ostream& text) {
@@ -48,22 +63,20 @@ FlightUnit FlightPlan::unitOf(const std::string& name) const {
 }
 
 std::uint64_t FlightPlan::fingerprint() const {
+  Fingerprint print;
+  print.addText(kSourcesHash);
+  for (const FlightVariant& variant : study_.variants) addVariant(variant, print);
   std::ostringstream text;
   text.precision(17);
-  text << kSourcesHash << '\n';
-  for (const FlightVariant& variant : study_.variants) describeVariant(variant, text);
   for (const auto& body : study_.bodies) describeBody(body, text);
   text << optionText(study_.vehicle) << optionText(study_.camera) << optionText(study_.odometry)
        << study_.command_rate << ' ' << study_.start.transpose() << ' ' << study_.start_yaw << ' '
        << study_.start_shift << ' ' << study_.yaw_shift << ' ' << study_.fence_low << ' '
        << study_.fence_high << ' ' << study_.time_limit;
   for (const auto& place : study_.route) text << ' ' << place.transpose();
-  for (const FlightWorld& world : study_.worlds)
-    text << world.name << base::readWholeFile(world.file, kLargestWorld);
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-  for (const char letter : text.str())
-    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211u;
-  return hash;
+  print.addText(text.str());
+  for (const FlightWorld& world : study_.worlds) addWorld(world, print);
+  return print.value();
 }
 
 }  // namespace grid_path_planner::flights

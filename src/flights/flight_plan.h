@@ -28,7 +28,8 @@ class FlightPlan {
   // none.
   FlightUnit unitOf(const std::string& name) const;
 
-  // A hash of the study (options, worlds, seeds) and of the sources that fly it.
+  // A hash of the study (options, worlds as they are read, programs, seeds) and of the sources that fly it. Throws
+  // InputError for a world or a program that cannot be read.
   std::uint64_t fingerprint() const;
 
  private:

@@ -36,6 +36,11 @@ struct FlightVariant {
   std::string label() const { return name + ' ' + rules(); }
 };
 
+// "LHLM safe on rescue_course", of which the name of a file is made.
+inline std::string pictureTitle(const FlightVariant& variant, const FlightWorld& world) {
+  return variant.label() + " on " + world.name;
+}
+
 // Of one configuration, as published.
 struct PublishedFlights {
   double time_s = 0.0;

@@ -42,6 +42,15 @@ std::string headOf(const std::string& kind, std::uint64_t fingerprint) {
 
 }  // namespace
 
+std::string fileNameOf(std::string name) {
+  for (char& letter : name) {
+    const bool stays = ('a' <= letter && letter <= 'z') || ('A' <= letter && letter <= 'Z') ||
+                       ('0' <= letter && letter <= '9');
+    if (!stays) letter = '_';
+  }
+  return name;
+}
+
 RunFolder::RunFolder(std::string folder, std::string kind, std::uint64_t fingerprint)
     : folder_(std::move(folder)), kind_(std::move(kind)) {
   makeFolders(folder_);
@@ -86,7 +95,7 @@ void RunFolder::open(std::uint64_t fingerprint) {
   const std::string text = readWholeFile(name, kLargestLog);
   if (text.compare(0, head.size(), head) != 0)
     throw InputError(name, "holds the runs of another " + kind_ +
-                               " (another file, map or version of it); "
+                               " (another file, something else that it names, or another version); "
                                "take another folder or remove this one");
   end_ = static_cast<std::int64_t>(readLines(text, head.size()));
   log_ = ::open(name.c_str(), O_WRONLY | O_CLOEXEC);

@@ -11,6 +11,9 @@
 
 namespace grid_path_planner::study {
 
+// `name` as part of a file's: an underscore for all that is no ASCII letter or digit. Names that differ may have one.
+std::string fileNameOf(std::string name);
+
 class RunFolder {
  public:
   // Makes the folder where there is none. `kind`: what writes here ("study"), for the first line and for

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "grid_path_planner/base/option_text.h"
+#include "sources_hash.h"
+#include "study/fingerprint.h"
 #include "study/unfilled_border.h"
 
 namespace grid_path_planner::study {
@@ -13,36 +15,14 @@ using grid::GridGeometry, grid::OccupancyGrid;
 
 namespace {
 
-// FNV-1a (Fowler, Noll & Vo 1991).
-class Hash {
- public:
-  void add(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ bytes[i]) * 1099511628211ull;
-  }
-  void add(const std::string& text) {
-    add(text.data(), text.size());
-    add("\n", 1);
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 14695981039346656037ull;
-};
-
-template <class Options>
-void addOptions(Hash& hash, const Options& options) {
-  hash.add(optionText(options));
-}
-
-void addMap(Hash& hash, const OccupancyGrid& map) {
+void addMap(const OccupancyGrid& map, Fingerprint& print) {
   const GridGeometry& geometry = map.geometry();
-  std::ostringstream text;
-  text.precision(17);
-  text << geometry.width() << ' ' << geometry.height() << ' ' << geometry.resolution() << ' '
-       << geometry.origin().x << ' ' << geometry.origin().y << ' ' << geometry.origin().yaw;
-  hash.add(text.str());
-  hash.add(map.row(0), geometry.size());
+  print.addNumber(std::int64_t{geometry.width()});
+  print.addNumber(std::int64_t{geometry.height()});
+  for (const double number :
+       {geometry.resolution(), geometry.origin().x, geometry.origin().y, geometry.origin().yaw})
+    print.addNumber(number);
+  print.addText(std::string(reinterpret_cast<const char*>(map.row(0)), geometry.size()));
 }
 
 std::string placesOf(const StudyQuery& query) {
@@ -75,23 +55,25 @@ std::string StudyPlan::nameOf(const StudyUnit& unit) const {
 }
 
 std::uint64_t StudyPlan::fingerprint() const {
-  Hash hash;
-  hash.add(std::to_string(study_.repeats));
-  addOptions(hash, study_.base);
+  Fingerprint print;
+  print.addText(kSourcesHash);
+  print.addNumber(std::int64_t{study_.repeats});
+  print.addText(optionText(study_.base));
   for (const StudySetting& setting : study_.settings) {
-    addOptions(hash, setting.costmap);
-    hash.add(choiceName(setting.border));
+    print.addNumber(static_cast<std::int64_t>(setting.map));
+    print.addText(optionText(setting.costmap));
+    print.addText(choiceName(setting.border));
   }
   for (const StudyVariant& variant : study_.variants) {
-    hash.add(variant.planner);
-    addOptions(hash, variant.search);
-    if (variant.published_cross) hash.add("cross_product_published");
+    print.addText(variant.planner);
+    print.addText(optionText(variant.search));
+    if (variant.published_cross) print.addText("cross_product_published");
   }
   for (std::size_t map = 0; map < maps_.size(); ++map) {
-    addMap(hash, *maps_[map]);
-    for (const StudyQuery& query : queries_[map]) hash.add(placesOf(query));
+    addMap(*maps_[map], print);
+    for (const StudyQuery& query : queries_[map]) print.addText(placesOf(query));
   }
-  return hash.value();
+  return print.value();
 }
 
 }  // namespace grid_path_planner::study

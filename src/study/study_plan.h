@@ -34,7 +34,7 @@ class StudyPlan {
   // "dexrov_site, kernel 3 filter2d, weights 1/50/100, (30, 30) to (360, 360)"
   std::string nameOf(const StudyUnit& unit) const;
 
-  // A hash of the plan: options, maps, queries.
+  // A hash of the plan (options, maps, queries) and of the sources that run it.
   std::uint64_t fingerprint() const;
 
  private:

@@ -35,6 +35,7 @@ PoseError errorOf(const Vector3d& position, const Quaterniond& attitude,
 }
 
 double autocorrelationOf(const std::vector<Vector3d>& vectors) {
+  if (vectors.size() < 2) return NAN;
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& vector : vectors) mean += vector / static_cast<double>(vectors.size());
   double product = 0.0, square = 0.0;

@@ -31,7 +31,7 @@ struct PoseError {
 PoseError errorOf(const Eigen::Vector3d& position, const Eigen::Quaterniond& attitude,
                   const Eigen::Vector3d& true_position, const Eigen::Quaterniond& true_attitude);
 
-// Lag-one autocorrelation of vectors about their mean, normalised. 0 for fewer than two, and where all are equal.
+// Lag-one autocorrelation of vectors about their mean, normalised. NaN for fewer than two, 0 where all are equal.
 double autocorrelationOf(const std::vector<Eigen::Vector3d>& vectors);
 
 // The same of the increments of the position: 1 for a motion that

@@ -14,6 +14,9 @@
 namespace grid_path_planner::trials {
 
 using base::InputError, base::StopToken;
+using localization::CommandedVelocity, localization::DepthFix, localization::DvlVelocity,
+    localization::HeadingFix, localization::ImuMeasurement, localization::Mounting,
+    localization::PoseFix, localization::PositionFix;
 using study::StudyOutcome, study::StudyTarget, study::TaskEnd;
 
 namespace {
@@ -30,6 +33,68 @@ PoseTrack trackOfBase(PoseTrack track, const SensorTape& tape) {
   }
   return track;
 }
+
+// All that a tape says, bit for bit.
+class TapePrint {
+ public:
+  explicit TapePrint(study::Fingerprint& print) : print_(print) {}
+
+  void add(const SensorTape& tape) {
+    add(tape.base);
+    for (const TapeEntry& entry : tape.entries) {
+      print_.addNumber(entry.arrives);
+      print_.addNumber(entry.measurement.stamp);
+      print_.addText(nameOf(entry.measurement.source));
+      std::visit([this](const auto& data) { add(data); }, entry.measurement.data);
+    }
+    for (const TapeInstant& instant : tape.instants) {
+      print_.addNumber(instant.stamp);
+      if (instant.truth) addPose(instant.truth->position, instant.truth->attitude);
+    }
+  }
+
+ private:
+  void addPose(const Eigen::Vector3d& position, const Eigen::Quaterniond& attitude) {
+    print_.addMatrix(position);
+    print_.addMatrix(attitude.coeffs());
+  }
+  void add(const Mounting& mounting) { addPose(mounting.position, mounting.rotation); }
+  void add(const ImuMeasurement& imu) {
+    print_.addMatrix(imu.inertial.rate);
+    print_.addMatrix(imu.inertial.acceleration);
+    if (imu.attitude) print_.addMatrix(imu.attitude->coeffs());
+  }
+  void add(const DvlVelocity& dvl) {
+    print_.addMatrix(dvl.velocity);
+    print_.addMatrix(dvl.covariance);
+    add(dvl.sensor);
+  }
+  void add(const CommandedVelocity& command) {
+    print_.addMatrix(command.velocity);
+    add(command.base);
+  }
+  void add(const DepthFix& depth) {
+    print_.addNumber(depth.z);
+    print_.addNumber(depth.variance);
+    print_.addMatrix(depth.sensor);
+  }
+  void add(const HeadingFix& heading) {
+    print_.addNumber(heading.yaw);
+    print_.addNumber(heading.variance);
+  }
+  void add(const PositionFix& fix) {
+    print_.addMatrix(fix.position);
+    print_.addMatrix(fix.covariance);
+    print_.addMatrix(fix.sensor);
+  }
+  void add(const PoseFix& fix) {
+    addPose(fix.position, fix.attitude);
+    print_.addMatrix(fix.covariance);
+    add(fix.mounting);
+  }
+
+  study::Fingerprint& print_;
+};
 
 }  // namespace
 
@@ -59,12 +124,11 @@ std::string RecordedJob::lineOfRow(std::size_t unit, const std::string& folder) 
   return lineOf(record) + '\n';
 }
 
-// The measurements are told by their number and stamps.
+// A bag that was corrected has the same stamps.
 std::uint64_t RecordedJob::fingerprint() const {
-  std::string text;
-  for (const TapeEntry& entry : tape_.entries)
-    text += std::to_string(entry.measurement.stamp) + ' ';
-  return fingerprintOf({trial_.file}, text);
+  study::Fingerprint print = fingerprintOf(trial_.file);
+  TapePrint(print).add(tape_);
+  return print.value();
 }
 
 StudyOutcome RecordedJob::run(const StudyTarget& target, study::WorkerGroup& workers,

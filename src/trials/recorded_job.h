@@ -6,7 +6,7 @@
 //   ProcessPool workers(2, job.work("out"));
 //   const StudyOutcome outcome = job.run({"out", "what made it", "", ""}, workers, stop, progress);
 //
-// A unit of work is one row. Guaranteed: what TrialJob guarantees.
+// A unit of work is one row. Guaranteed: what TrialJob guarantees. A folder that another recording began is refused.
 #pragma once
 
 #include <cstddef>
@@ -38,6 +38,7 @@ class RecordedJob {
 
  private:
   std::string lineOfRow(std::size_t unit, const std::string& folder) const;
+  // A hash of the file, of the sources, and of all measurements with sensors' places and truth.
   std::uint64_t fingerprint() const;
 
   RecordedTrial trial_;

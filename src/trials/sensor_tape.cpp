@@ -31,6 +31,18 @@ Mounting mountingOf(const Isometry3d& pose) {
   return {pose.translation(), Quaterniond(pose.linear())};
 }
 
+std::int64_t stepsOf(const DriveOptions& drive) {
+  return static_cast<std::int64_t>(drive.seconds * 1e9) / kStepNs;
+}
+
+// When an image is stamped, s, and in ns.
+double stampedTime(const TrialStudy& study, const ErrorSet& set, int frame) {
+  return frameTime(study, frame) + set.camera_clock;
+}
+Stamp stampOf(double time) {
+  return std::llround(1e9 * time);
+}
+
 // All sensors on, with the run's noise.
 NavigationSensorOptions sensorsOf(const ErrorSet& set, int seed) {
   NavigationSensorOptions options = set.sensors;
@@ -77,7 +89,7 @@ class TapeRecorder {
 
   SensorTape record() {
     addImages();
-    const auto steps = static_cast<std::int64_t>(study_.drive.seconds * 1e9) / kStepNs;
+    const std::int64_t steps = stepsOf(study_.drive);
     std::size_t instant = 0;
     for (std::int64_t step = 0; step <= steps; ++step) {
       measure(step);
@@ -190,8 +202,8 @@ class TapeRecorder {
   void addImages() {
     Noise draws(seed_, Purpose::MARKERS), flips(seed_, Purpose::FLIPS);
     for (int frame = 0; frame < frameCount(study_); ++frame) {
-      const double time = frameTime(study_, frame) + set_.camera_clock;
-      const auto stamp = static_cast<Stamp>(std::llround(1e9 * time));
+      const double time = stampedTime(study_, set_, frame);
+      const Stamp stamp = stampOf(time);
       tape_.instants.push_back({time, stamp, {}});
       for (const Method method : {Method::MEAN, Method::JOINT}) {
         const auto error = source_ == MarkerSource::SHOWN
@@ -252,6 +264,13 @@ class TapeRecorder {
 };
 
 }  // namespace
+
+double lastLook(const TrialStudy& study, const ErrorSet& set) {
+  const Stamp end = (stepsOf(study.drive) + 1) * kStepNs;
+  int frame = frameCount(study) - 1;
+  while (frame > 0 && stampOf(stampedTime(study, set, frame)) >= end) --frame;
+  return stampedTime(study, set, frame);
+}
 
 SensorTape recorded(const TrialStudy& study, const World& world, std::size_t set, int seed,
                     const MarkerErrors& errors, MarkerSource source) {

@@ -42,6 +42,9 @@ struct SensorTape {
 // Poses that the images themselves showed, or drawn from their errors.
 enum class MarkerSource { SHOWN, DRAWN };
 
+// When a run of this error set is looked at last, s: its last image that comes before the drive is over.
+double lastLook(const TrialStudy& study, const ErrorSet& set);
+
 SensorTape recorded(const TrialStudy& study, const simulation::World& world, std::size_t set,
                     int seed, const MarkerErrors& errors, MarkerSource source);
 

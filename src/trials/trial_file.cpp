@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/base/yaml_file.h"
 #include "study/study_yaml.h"
+#include "trials/sensor_tape.h"
+#include "trials/track_file.h"
 #include "trials/trial_nodes.h"
 
 namespace grid_path_planner::trials {
@@ -56,6 +59,7 @@ class TrialReader {
     readOptions(root, "filter", study_.filter);
     readOptions(root, "sensors", sensors_);
     readSets(yamlNode(root, "error_sets", file_, "a list of error sets"));
+    checkFault(root["fault"] ? root["fault"] : root);
     if (yamlHas(root, "published", file_)) readPublished(root["published"]);
     return study_;
   }
@@ -112,10 +116,18 @@ class TrialReader {
     nodes_.readNumber(root, "flips", {0.0, 1.0}, study_.flips);
     nodes_.readNumber(root, "current", {0.0, 10.0}, study_.current);
     if (root["fault"]) study_.fault = windowOf(root["fault"], "fault");
-    if (study_.fault.to > study_.drive.seconds)
-      throw yamlError(root["fault"] ? root["fault"] : root, file_,
-                      "fault must end within the drive");
     nodes_.readStated(root, study_);
+  }
+
+  // How far a row is off at the end of the faults is seen by an image.
+  void checkFault(const YAML::Node& node) const {
+    for (const ErrorSet& set : study_.sets) {
+      const double last = std::min(lastLook(study_, set), study_.drive.seconds);
+      if (study_.fault.to > last)
+        throw yamlError(node, file_,
+                        "fault must end within the drive, and not after its last image, which '" +
+                            set.name + "' has at " + base::decimalText(last) + " s");
+    }
   }
 
   // A mapping of options of one struct.
@@ -127,7 +139,7 @@ class TrialReader {
   }
 
   void readSets(const YAML::Node& list) {
-    std::set<std::string> names;
+    std::set<std::string> names, files;
     for (const YAML::Node& entry : nodes_.entriesOf(list, "error_sets")) {
       checkKeys(entry, "an error set", file_,
                 {"name", "sensors", "camera_offset", "camera_turn", "focal_error", "camera_clock",
@@ -135,6 +147,8 @@ class TrialReader {
       ErrorSet set;
       set.name = yamlValue<std::string>(entry, "name", file_, "a name");
       nodes_.refuseTwice(entry["name"], names, set.name, "error_sets");
+      for (const std::string& file : trackFilesOf(set.name))
+        nodes_.refuseSameFile(entry["name"], files, file);
       set.sensors = sensors_;
       readOptions(entry, "sensors", set.sensors);
       nodes_.readNumber(entry, "camera_offset", {0.0, 10.0}, set.camera_offset);

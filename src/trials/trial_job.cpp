@@ -59,9 +59,10 @@ class TrialWorker {
     for (const TrialRow& row : trialRows()) {
       RunTracks tracks;
       record.rows.push_back(played(study, row, tape, kept ? &tracks : nullptr));
-      if (kept) writeTrack(folder_, study.sets[unit.set].name + "_" + row.name, tracks.estimate);
+      if (kept)
+        writeTrack(folder_, trackNameOf(study.sets[unit.set].name, row.name), tracks.estimate);
       if (kept && &row == &trialRows().front())
-        writeTrack(folder_, study.sets[unit.set].name + "_truth", tracks.truth);
+        writeTrack(folder_, trackNameOf(study.sets[unit.set].name, kTruth), tracks.truth);
     }
     return lineOf(record) + '\n';
   }

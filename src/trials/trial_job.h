@@ -36,7 +36,8 @@ class TrialJob {
   std::function<std::string(std::size_t unit)> work(const std::string& folder) const;
 
   // Has `workers` do what the folder does not hold, and writes the report there once every error set has the run
-  // with its images' poses and two seeds. When `stop` asks to end, units that were begun are completed. Throws InputError where a file cannot be written.
+  // with its images' poses and two seeds, and the page of results where no unit is missing. When `stop` asks to end,
+  // units that were begun are completed. Throws InputError where a file cannot be written.
   study::StudyOutcome run(const study::StudyTarget& target, study::WorkerGroup& workers,
                           const base::StopToken& stop,
                           const std::function<void(std::size_t done)>& progress) const;

@@ -1,9 +1,9 @@
 #include "trials/trial_plan.h"
 
 #include <algorithm>
-#include <sstream>
 
-#include "grid_path_planner/base/files.h"
+#include "grid_path_planner/simulation/world.h"
+#include "simulation/mesh_bytes.h"
 #include "sources_hash.h"
 #include "trials/trial_record.h"
 
@@ -12,18 +12,14 @@ namespace grid_path_planner::trials {
 namespace {
 
 constexpr int kFramesOfUnit = 25;
-constexpr std::size_t kLargestFile = std::size_t{256} << 20;
 
 }  // namespace
 
-std::uint64_t fingerprintOf(const std::vector<std::string>& files, const std::string& more) {
-  std::ostringstream text;
-  text << kSourcesHash << more;
-  for (const std::string& file : files) text << base::readWholeFile(file, kLargestFile);
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-  for (const char letter : text.str())
-    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211u;
-  return hash;
+study::Fingerprint fingerprintOf(const std::string& file) {
+  study::Fingerprint print;
+  print.addText(kSourcesHash);
+  print.addFile(file);
+  return print;
 }
 
 TrialPlan::TrialPlan(TrialStudy study) : study_(std::move(study)) {
@@ -48,9 +44,13 @@ std::string TrialPlan::nameOf(const TrialUnit& unit) const {
          (unit.water == Water::TURBID ? " in turbid water" : " in clear water");
 }
 
-// Whatever is in the study file counts, comments too.
+// Whatever is in the study file counts, comments too; of the world what is read of it and of the meshes that it names.
 std::uint64_t TrialPlan::fingerprint() const {
-  return fingerprintOf({study_.file, study_.world, study_.layout}, "");
+  study::Fingerprint print = fingerprintOf(study_.file);
+  print.addFile(study_.layout);
+  const auto world = simulation::readWorld(study_.world, base::ReadLimits::ofProcessorTime());
+  print.addText(bytesOf(simulation::WorldMeshes{world.solid(), world.visible()}));
+  return print.value();
 }
 
 }  // namespace grid_path_planner::trials

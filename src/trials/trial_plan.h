@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "study/fingerprint.h"
 #include "trials/marker_views.h"
 #include "trials/trial_study.h"
 
@@ -18,8 +19,9 @@ struct TrialUnit {
   int seed = 0;         // kShownSeed: with the poses that the images showed
 };
 
-// A hash of the files' contents, of `more`, and of the sources of this room and those below.
-std::uint64_t fingerprintOf(const std::vector<std::string>& files, const std::string& more);
+// Of a trial's file and of the sources of this room and those below, to which more may be added. Throws InputError
+// where the file cannot be read.
+study::Fingerprint fingerprintOf(const std::string& file);
 
 class TrialPlan {
  public:
@@ -32,7 +34,8 @@ class TrialPlan {
   // "images 25 to 49 in turbid water", "field/7".
   std::string nameOf(const TrialUnit& unit) const;
 
-  // A hash of the study, world and layout included, and of the sources that run it.
+  // A hash of the study, its world as it is read and its layout included, and of the sources that run it. Throws
+  // InputError for a file that cannot be read.
   std::uint64_t fingerprint() const;
 
  private:

@@ -89,9 +89,16 @@ json jsonOf(const ErrorSpread& spread) {
           spread.count};
 }
 
+// Of nothing it is NaN, which JSON has no number for.
 ErrorSpread errorSpread(const json& array) {
+  const auto count = wholeNumberOf<int>(array.at(4));
+  if (count == 0) return {};
   return {array.at(0).get<double>(), array.at(1).get<double>(), array.at(2).get<double>(),
-          array.at(3).get<double>(), wholeNumberOf<int>(array.at(4))};
+          array.at(3).get<double>(), count};
+}
+
+double orNan(const json& value) {
+  return value.is_null() ? NAN : value.get<double>();
 }
 
 json jsonOf(const RowResult& row) {
@@ -119,9 +126,9 @@ RowResult rowResult(const json& object) {
   row.markers = errorSpread(object.at("markers"));
   row.in_view = errorSpread(object.at("in_view"));
   row.all = errorSpread(object.at("all"));
-  object.at("smoothness").get_to(row.smoothness);
-  object.at("position_smoothness").get_to(row.position_smoothness);
-  object.at("ate").get_to(row.ate);
+  row.smoothness = orNan(object.at("smoothness"));
+  row.position_smoothness = orNan(object.at("position_smoothness"));
+  row.ate = orNan(object.at("ate"));
   for (std::size_t i = 0; i < row.rpe.size(); ++i)
     if (const json& error = object.at("rpe").at(i); !error.is_null()) row.rpe[i] = poseError(error);
   object.at("nees").get_to(row.nees);
@@ -131,8 +138,9 @@ RowResult rowResult(const json& object) {
                   wholeNumberOf<int>(object.at("nis").at(i).at(1))};
   row.gated = wholeNumberOf<decltype(row.gated)>(object.at("gated"));
   row.resets = wholeNumberOf<decltype(row.resets)>(object.at("resets"));
-  row.fault_end = poseError(object.at("fault_end"));
-  object.at("fault_nees").get_to(row.fault_nees);
+  const json& fault_end = object.at("fault_end");
+  row.fault_end = {orNan(fault_end.at(0)), orNan(fault_end.at(1))};
+  row.fault_nees = orNan(object.at("fault_nees"));
   return row;
 }
 

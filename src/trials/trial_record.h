@@ -24,7 +24,8 @@ struct RowRecord {
   RowResult result;
 };
 
-// One line of JSON, with numbers in full, and back. Throw InputError for a line of another form.
+// One line of JSON, with numbers in full and null for a figure that nothing was seen of, and back. Throw InputError for a
+// line of another form.
 std::string lineOf(const SeenFrame& frame);
 std::string lineOf(const RunRecord& run);
 std::string lineOf(const RowRecord& row);

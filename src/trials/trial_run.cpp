@@ -29,12 +29,13 @@ class SpreadSum {
 
  private:
   static std::pair<double, double> of(const std::vector<double>& values) {
+    if (values.empty()) return {NAN, NAN};
     const auto count = static_cast<double>(values.size());
     double sum = 0.0, squares = 0.0;
     for (const double value : values) sum += value;
-    const double mean = values.empty() ? 0.0 : sum / count;
+    const double mean = sum / count;
     for (const double value : values) squares += (value - mean) * (value - mean);
-    return {mean, values.empty() ? 0.0 : std::sqrt(squares / count)};
+    return {mean, std::sqrt(squares / count)};
   }
 
   std::vector<double> metres_, degrees_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -12,10 +13,10 @@
 
 namespace grid_path_planner::trials {
 
-// Over time.
+// Over time. NaN where there was nothing to compare.
 struct ErrorSpread {
-  double metres = 0.0, metres_deviation = 0.0;
-  double degrees = 0.0, degrees_deviation = 0.0;
+  double metres = NAN, metres_deviation = NAN;
+  double degrees = NAN, degrees_deviation = NAN;
   int count = 0;
 };
 
@@ -30,19 +31,20 @@ constexpr std::array<localization::Source, 4> kNisSources = {
     localization::Source::DVL, localization::Source::DEPTH, localization::Source::USBL,
     localization::Source::MARKER};
 
+// A figure that nothing was seen of is NaN.
 struct RowResult {
   ErrorSpread markers;               // while an image gives a pose: against that pose
   ErrorSpread in_view;               // at the same times, against the truth
   ErrorSpread all;                   // at all times, against the truth
-  double smoothness = 0.0;           // m_A
-  double position_smoothness = 0.0;  // the same of the positions themselves
-  double ate = 0.0;                  // m
+  double smoothness = NAN;           // m_A
+  double position_smoothness = NAN;  // the same of the positions themselves
+  double ate = NAN;                  // m
   std::array<std::optional<PoseError>, kRpeLengths.size()> rpe;
   std::vector<double> nees, pose_nees;  // each second, of 15 and of 6
   std::array<NisMean, kNisSources.size()> nis;
-  int gated = 0, resets = 0;  // of fixes
-  PoseError fault_end;        // at the end of the window of faults
-  double fault_nees = 0.0;    // then, of 15
+  int gated = 0, resets = 0;         // of fixes
+  PoseError fault_end = {NAN, NAN};  // at the end of the window of faults
+  double fault_nees = NAN;           // then, of 15
 };
 
 // Where the truth is not known, there is none of it.

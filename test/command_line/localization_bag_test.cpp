@@ -29,10 +29,11 @@ const Topics kAll = {"imu/data",    "dvl/twist",    "depth", "usbl/pose",
 constexpr double kSpeed = 0.2;  // m/s
 constexpr double kDeviation = 0.01;
 
-// A vehicle that goes along x for 20 s, level, and what its sensors say of that.
+// A vehicle that goes along x for 20 s, level, and what its sensors say of that. Markers see it `marker_shift` metres
+// too far along.
 class Dive {
  public:
-  Dive(const std::string& file, Topics topics)
+  Dive(const std::string& file, Topics topics, double marker_shift = 0.0)
       : topics_(std::move(topics)), bag_(file, rosbag::bagmode::Write) {
     for (int tick = 0; tick <= 1000; ++tick) {
       now_ = ros::Time(1000.0 + 0.02 * tick);
@@ -41,7 +42,7 @@ class Dive {
       if (tick % 7 == 0) write("dvl/twist", dvl());
       if (tick % 5 == 0) write("depth", pose(kDeviation));
       if (tick % 50 == 0) write("usbl/pose", pose(kDeviation));
-      if (tick % 10 == 0) write("marker_pose", pose(kDeviation));
+      if (tick % 10 == 0) write("marker_pose", pose(kDeviation, marker_shift));
       if (tick % 2 == 0) write("ground_truth", truth());
     }
   }
@@ -89,9 +90,9 @@ class Dive {
     return message;
   }
 
-  geometry_msgs::PoseWithCovarianceStamped pose(double deviation) {
+  geometry_msgs::PoseWithCovarianceStamped pose(double deviation, double shift = 0.0) {
     auto message = stamped<geometry_msgs::PoseWithCovarianceStamped>("map");
-    message.pose.pose.position.x = kSpeed * (now_.toSec() - 1000.0) + noise();
+    message.pose.pose.position.x = kSpeed * (now_.toSec() - 1000.0) + noise() + shift;
     message.pose.pose.position.y = noise();
     message.pose.pose.position.z = noise();
     message.pose.pose.orientation.w = 1.0;
@@ -175,6 +176,17 @@ TEST_F(BagTrial, AcousticFixesAloneAllowTheirRow) {
   EXPECT_EQ(rowOf("figures", "USBL").size(), 12u);
   EXPECT_TRUE(contains(contentOf(folder.path("out/report.html")),
                        "L2: nothing says where it begins: no marker pose, no truth."));
+}
+
+// Stamps alone told one recording from another: a bag with the markers' layout corrected got the rows of the wrong one.
+TEST_F(BagTrial, ACorrectedBagDoesNotGoOnWithTheRowsOfTheOneBefore) {
+  const Topics some = {"imu/data", "dvl/twist", "marker_pose", "/tf"};
+  ASSERT_EQ(run(some).error, "");
+  const std::string rows = contentOf(folder.path("out/runs.jsonl"));
+  EXPECT_EQ(run(some).error, "") << "the same bag, written again, goes on";
+  Dive(folder.path("dive.bag"), some, 1.0);
+  EXPECT_TRUE(contains(runOnBag("settle: 2\n").error, "holds the runs of another trials"));
+  EXPECT_EQ(contentOf(folder.path("out/runs.jsonl")), rows);
 }
 
 TEST_F(BagTrial, PlacesOfSensorsMayBeToldByTheTrial) {

@@ -78,7 +78,7 @@ TEST(FlightFile, MistakesAreToldWithFileAndLine) {
 TEST(FlightFile, AListThatIsMissingIsToldWithFileAndLine) {
   const SmallFlights small;
   const auto refusal = [&](const std::string& more) {
-    return errorText([&] { readFlightFile(small.write("  - {name: a}\n", more)); });
+    return errorText([&] { readFlightFile(small.write("  - {name: a}\n  - {name: b}\n", more)); });
   };
   const std::string published = "published: {source: s, figures: {a: [1, 2, 3]}, ";
   for (const auto& [more, key] : std::vector<std::pair<std::string, std::string>>{
@@ -90,6 +90,50 @@ TEST(FlightFile, AListThatIsMissingIsToldWithFileAndLine) {
     EXPECT_TRUE(contains(refusal(more), "has no '" + key + "' (a list)") &&
                 contains(refusal(more), "study.yaml:"))
         << refusal(more);
+}
+
+// Such a pair was never tested, and its conclusion was confirmed by the others.
+TEST(FlightFile, APairOfAConfigurationThatIsNoneIsToldWithFileAndLine) {
+  const SmallFlights small;
+  const std::string begin =
+      "published:\n  source: s\n  figures: {a: [1, 2, 3]}\n  pairs: [{pair: [a, b], p: [0, 1]}]\n";
+  const auto refusal = [&](const std::string& conclusions) {
+    return errorText([&] {
+      readFlightFile(small.write("  - {name: a}\n  - {name: b}\n", begin + conclusions));
+    });
+  };
+  EXPECT_EQ(refusal("  conclusions: [{claim: c, pairs: [[a, b]]}]"), "");
+  EXPECT_TRUE(contains(refusal("  conclusions: [{claim: c, pairs: [[a, b], [a, B]]}]"),
+                       "study.yaml:14: a pair names 'B', which is no configuration"))
+      << refusal("  conclusions: [{claim: c, pairs: [[a, b], [a, B]]}]");
+}
+
+// Of frames that are due between two commands only those came that fell on one: 12.5 Hz were 2.5.
+TEST(FlightFile, FramesThatNoCommandTakesAreRefused) {
+  const SmallFlights small;
+  const auto refusal = [&](const std::string& command_rate, const std::string& camera_rate) {
+    small.folder.write("vehicle.yaml", "time_step: 0.01\ncamera_rate: " + camera_rate + "\n");
+    return errorText(
+        [&] { readFlightFile(small.write("  - {name: a}\n", "command_rate: " + command_rate)); });
+  };
+  EXPECT_EQ(refusal("20", "20"), "");
+  EXPECT_EQ(refusal("25", "12.5"), "");
+  EXPECT_TRUE(contains(refusal("20", "12.5"),
+                       "study.yaml:10: command_rate, 20 Hz, must be a multiple of camera_rate, "
+                       "12.5 Hz"))
+      << refusal("20", "12.5");
+  EXPECT_TRUE(contains(refusal("10", "20"), "must be a multiple"));
+  EXPECT_TRUE(contains(refusal("30", "10"), "the period of commands must be whole steps"));
+}
+
+// The picture of the last one was written over those of the others.
+TEST(FlightFile, ConfigurationsWhosePicturesHaveOneNameAreRefused) {
+  const SmallFlights small;
+  const std::string file = small.write("  - {name: a b}\n  - {name: a_b}\n");
+  const std::string refusal = errorText([&] { readFlightFile(file); });
+  EXPECT_TRUE(contains(refusal, "study.yaml:12: ") &&
+              contains(refusal, "above_a_b_safe_on_field.svg"))
+      << refusal;
 }
 
 // Found by the fuzzer, as above: yaml-cpp throws where an entry that is not there is asked what it is.

@@ -69,6 +69,17 @@ TEST_F(FlightReport, AClaimIsConfirmedOnlyWhereAllThreeFiguresBearIt) {
   EXPECT_EQ(verdict(dataOf(1, 18, 60.0)), ClaimVerdict::UNDECIDED) << "one flight has no mean time";
 }
 
+// `old` was flown under other rules, so that nothing tells whether `fast` is better under these.
+TEST_F(FlightReport, AClaimOfAPairThatWasNeverComparedIsUndecided) {
+  PublishedConclusion claim = plan_.study().conclusions.front();
+  const std::vector<FlightTest> tests = flightTests(dataOf(4, 18, 60.0), "safe");
+  EXPECT_EQ(verdictOn(claim, tests), ClaimVerdict::CONFIRMED);
+  claim.pairs.push_back({"old", "fast"});
+  EXPECT_EQ(verdictOn(claim, tests), ClaimVerdict::UNDECIDED);
+  EXPECT_EQ(verdictOn({"nothing", {}}, tests), ClaimVerdict::UNDECIDED);
+  EXPECT_EQ(verdictOn(claim, flightTests(dataOf(4, 18, 130.0), "safe")), ClaimVerdict::REFUTED);
+}
+
 TEST_F(FlightReport, TestsAreCorrectedAndStandBesideThePublishedOnes) {
   const std::vector<FlightTest> tests = flightTests(dataOf(4, 18, 60.0), "safe");
   ASSERT_EQ(tests.size(), 3u);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "flights/flight_plan.h"
 #include "flights/small_flights.h"
@@ -115,6 +116,26 @@ TEST(FlightLaw, AnyNumberOfJobsAndAnInterruptionGiveTheSameFlights) {
   EXPECT_EQ(tableOf(file, small.folder.path("one"), 1), one);
 }
 
+// The page of 300 flights was written over by that of a few.
+TEST(FlightLaw, AnInterruptedStudyLeavesThePageOfResultsAsItIs) {
+  const SmallFlights small;
+  const FlightJob job(small.write(SmallFlights::program("believe"), "flights: 3"));
+  const std::string page = small.folder.write("page.md", "before");
+  const auto run = [&](std::size_t last) {  // ends when so many have flown
+    base::StopSource stop;
+    ProcessPool pool(1, job.work());
+    return job.run({small.folder.path("out"), "a test", page, ""}, pool, stop.token(),
+                   [&](std::size_t done) {
+                     if (done == last) stop.cancel();
+                   });
+  };
+  EXPECT_EQ(run(1).runs, 1u);
+  EXPECT_EQ(test::contentOf(page), "before");
+  EXPECT_TRUE(contains(test::contentOf(small.folder.path("out/report.html")), "are missing"));
+  EXPECT_EQ(run(0).runs, 3u);
+  EXPECT_TRUE(contains(test::contentOf(page), "3 flights."));
+}
+
 TEST(FlightLaw, TheLogOfAFlightRepeatsToTheBit) {
   const SmallFlights small;
   const FlownAgain flight =
@@ -154,6 +175,37 @@ TEST(FlightRecord, ALineWithANumberThatIsNoneOfItsKindIsRefused) {
         << number;
   for (const char* number : {"-1", "18446744073709551616"})
     EXPECT_NE(errorText([&] { recordFromLine(with("variant", number)); }), "") << number;
+}
+
+// Flights of before went on as those of another mesh or program, whose names were the same.
+TEST(FlightPlan, AnotherMeshOrProgramIsAnotherStudy) {
+  const SmallFlights small;
+  const auto mesh = [&small](const char* height) {
+    small.folder.write("post.obj",
+                       std::string("v 3 2 0\nv 4 2 0\nv 3 2 ") + height + "\nf 1 2 3\n");
+  };
+  small.folder.write("field.sdf",
+                     "<sdf version='1.6'><world name='field'><model name='post'><static>1</static>"
+                     "<link name='l'><collision name='c'><geometry><mesh><uri>post.obj</uri>"
+                     "</mesh></geometry></collision></link></model></world></sdf>");
+  const std::string file = small.write("  - {name: mine, pilot: {program: [./mine.py, " +
+                                       small.folder.path("weights.txt") + "]}}\n");
+  const auto fingerprint = [&file] { return FlightPlan(readFlightFile(file)).fingerprint(); };
+  std::set<std::uint64_t> prints;
+  const auto isAnother = [&] { return prints.insert(fingerprint()).second; };
+  mesh("3");
+  EXPECT_TRUE(isAnother()) << "the program is not there yet";
+  EXPECT_FALSE(isAnother());
+  mesh("4");
+  EXPECT_TRUE(isAnother());
+  small.folder.write("mine.py", "print('left')\n");
+  EXPECT_TRUE(isAnother());
+  small.folder.write("mine.py", "print('right')\n");
+  EXPECT_TRUE(isAnother());
+  small.folder.write("weights.txt", "0.5\n");
+  EXPECT_TRUE(isAnother());
+  small.folder.write("weights.txt", "0.6\n");
+  EXPECT_TRUE(isAnother());
 }
 
 TEST(FlightPlan, FlightsAreFoundByTheBeginningOfTheirNames) {

@@ -101,12 +101,13 @@ class Includes(unittest.TestCase):
                          ["src/grid/x.cpp:1: 'base/zeroed_array.h' is a private header of 'base'"])
 
     def test_ros_below_its_floor(self):
-        for header in ("<ros/ros.h>", "<nav_msgs/Path.h>", "<tf2_ros/buffer.h>",
-                       "<grid_path_planner/PlanStatistics.h>"):
+        for header in ("<ros/ros.h>", "<nav_msgs/Path.h>", "<tf2_ros/buffer.h>", "<grid_path_planner/PlanStatistics.h>"):
             self.assertEqual(len(self.planted("grid", header)), 1, header)
             self.assertEqual(self.planted("ros/common", header), [], header)
 
-    def test_other_folders_and_rooms(self):
+    def test_other_folders_rooms_and_hashes_of_sources(self):
+        hashed = {"src/grid/CMakeLists.txt": FLOORS["grid"] + "\ngpp_add_sources_hash(grid grid)"}  # and base
+        self.assertEqual(len(complaints("check_includes.py", more=hashed)), 1)
         self.assertEqual(len(self.planted("grid", '"../base/private.h"')), 1)
         self.assertEqual(len(self.planted("cellar", "<string>")), 1)
 

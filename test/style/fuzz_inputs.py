@@ -25,7 +25,6 @@ INPUTS = {
     "base/yaml_file.cpp": {FILE: "yaml_text"},
     "command_line/node_config.cpp": {FILE: "node_config"},
     "flights/flight_file.cpp": {FILE: "flight_study"},
-    "flights/flight_plan.cpp": {FILE: Without("its bytes are hashed; world_file reads them")},
     "grid/formats/image_file.cpp": {FILE: "png_image jpeg_image bmp_image pnm_image map_file"},
     "grid/map_file.cpp": {FILE: "map_file map_server_file moving_ai_map occupancy_dump"},
     "layers/zones.cpp": {FILE: "zones"},
@@ -44,13 +43,13 @@ INPUTS = {
     "simulation/mesh_file.cpp": {FILE: "mesh_file mesh_scene"},
     "simulation/sensors/sensor_faults.cpp": {FILE: "sensor_faults"},
     "simulation/world_meshes.cpp": {FILE: "world_file world_tree"},
+    "study/fingerprint.cpp": {FILE: Without("its bytes are hashed; trial_file and marker_layout read them")},
     "study/run_folder.cpp": {FILE: "study_record"},
     "study/scenario_file.cpp": {FILE: "scenario_file"},
     "study/study_file.cpp": {FILE: "study_file"},
     "trials/recorded_trial_file.cpp": {FILE: "recorded_trial"},
     "trials/trial_file.cpp": {FILE: "trial_file"},
     "trials/trial_job.cpp": {FILE: "study_record"},
-    "trials/trial_plan.cpp": {FILE: Without("their bytes are hashed; trial_file, world_file and marker_layout read them")},
     "vision/marker_layout.cpp": {FILE: "marker_layout"},
 
     # Programs of others that answer over a pipe

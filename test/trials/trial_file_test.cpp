@@ -60,5 +60,27 @@ TEST_F(BadTrial, MistakesAreToldWithFileAndLine) {
   EXPECT_TRUE(contains(errorText([&] { readTrialFile("gone.yaml"); }), "gone.yaml"));
 }
 
+// At the end of a fault that no image came after, every row was 0.000 m off.
+TEST_F(BadTrial, AFaultThatEndsAfterTheLastImageIsRefused) {
+  const std::string drive = "drive: {seconds: 19}\nsettle: 2\ncamera: {rate: 0.5}\n";
+  EXPECT_EQ(refusal(drive + "fault: [10, 18]"), "");
+  EXPECT_TRUE(
+      contains(refusal(drive + "fault: [10, 18.5]"), "trial.yaml:9: fault must end within"));
+  EXPECT_TRUE(contains(refusal(drive + "fault: [10, 18.5]"), "'nominal' has at 18 s"));
+  const std::string late = "error_sets: [{name: nominal}, {name: late, camera_clock: 1.5}]";
+  EXPECT_TRUE(contains(refusal(drive + "fault: [10, 18]", late), "'late' has at 17.5 s"))
+      << "that of 18 s comes after the drive";
+}
+
+// Of two sets that differ in a space the trajectories were those of the last one.
+TEST_F(BadTrial, SetsWhoseTrajectoriesHaveOneNameAreRefused) {
+  EXPECT_TRUE(contains(refusal("", "error_sets: [{name: a b}, {name: a_b}]"),
+                       "trial.yaml:5: 'a_b' has a file of another one: a_b_truth"))
+      << refusal("", "error_sets: [{name: a b}, {name: a_b}]");
+  EXPECT_TRUE(contains(refusal("", "error_sets: [{name: a}, {name: a_L5}]"), "a_L5_joint"))
+      << "L5 joint of the first, joint of the second";
+  EXPECT_EQ(refusal("", "error_sets: [{name: a}, {name: b}]"), "");
+}
+
 }  // namespace
 }  // namespace grid_path_planner::trials

@@ -43,7 +43,8 @@ class FlightJob {
   std::function<std::string(std::size_t unit)> work() const;
 
   // Has `workers` fly what the folder does not hold, and writes the report there. When `stop` asks to end,
-  // flights in the air are completed. Throws InputError where a file cannot be written.
+  // flights in the air are completed. The page of results is written where no flight is missing. Throws
+  // InputError where a world cannot be read or a file cannot be written.
   study::StudyOutcome run(const study::StudyTarget& target, study::WorkerGroup& workers,
                           const base::StopToken& stop,
                           const std::function<void(std::size_t done)>& progress) const;

@@ -41,8 +41,8 @@ std::vector<FlightTest> flightTests(const FlightData& data, const std::string& r
 
 enum class ClaimVerdict { CONFIRMED, REFUTED, UNDECIDED };
 const char* textOf(ClaimVerdict verdict);
-// Confirmed where every comparison of the claim is significant (corrected p < 0.05) in its direction,
-// refuted where one is against it.
+// Confirmed where every pair of the claim was compared and every comparison is significant (corrected p < 0.05) in
+// its direction, refuted where one is against it.
 ClaimVerdict verdictOn(const PublishedConclusion& claim, const std::vector<FlightTest>& tests);
 
 }  // namespace grid_path_planner::flights

@@ -7,6 +7,7 @@
 #include "study/report/markup.h"
 #include "study/report/report_page.h"
 #include "study/report/svg_chart.h"
+#include "study/run_folder.h"
 
 namespace grid_path_planner::flights {
 
@@ -19,12 +20,6 @@ namespace {
 constexpr std::size_t kDrawnWorlds = 3;  // of a variant
 constexpr std::size_t kDrawnEnds = 60;   // of failed flights
 constexpr std::size_t kShownFlights = 2000;
-
-std::string fileNameOf(std::string label) {
-  for (char& letter : label)
-    if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
-  return label;
-}
 
 std::vector<study::BoxGroup> boxesOf(const FlightData& data,
                                      const std::function<double(const FlightRecord&)>& value) {
@@ -65,10 +60,9 @@ std::string aboveHtml(const FlightData& data, WorldOutlines& outlines, const Stu
       for (const FlightRecord* flight : data.of(i))
         if (flight->world == world) flights.push_back(flight);
       if (flights.empty()) continue;
-      const std::string title =
-          data.study().variants[i].label() + " on " + data.study().worlds[world].name;
+      const std::string title = pictureTitle(data.study().variants[i], data.study().worlds[world]);
       const std::string svg = flightsPicture(data.study(), outlines.of(world), flights, title);
-      writeFileAtomically(target.folder + "/above_" + fileNameOf(title) + ".svg",
+      writeFileAtomically(target.folder + "/above_" + study::fileNameOf(title) + ".svg",
                           standalonePicture(svg));
       html += figureHtml(svg, title + ", " + std::to_string(flights.size()) + " flights. Made by",
                          target.command);
@@ -146,15 +140,14 @@ std::string reportOf(const FlightData& data, const std::vector<Finding>& finding
 }
 
 std::string flightResultsPage(const FlightData& data, const std::vector<Finding>& findings,
-                              std::size_t missing, const StudyTarget& target) {
-  std::string page =
-      "# Results: " + study::markdown(data.study().title) + "\n\nFlights of commit " +
-      (target.commit.empty() ? "(not told)" : study::markdown(target.commit)) + ", by\n\n" +
-      study::markdownCode(target.command) +
-      "\n\nDo not edit: the command writes it anew. Times of the CPU are " +
-      "of one machine at one time; everything else is the same wherever it runs. " +
-      shownNumber(static_cast<double>(data.records().size()), 9) + " flights" +
-      (missing > 0 ? ", " + std::to_string(missing) + " were not flown" : "") + ".\n";
+                              const StudyTarget& target) {
+  std::string page = "# Results: " + study::markdown(data.study().title) +
+                     "\n\nFlights of commit " +
+                     (target.commit.empty() ? "(not told)" : study::markdown(target.commit)) +
+                     ", by\n\n" + study::markdownCode(target.command) +
+                     "\n\nDo not edit: the command writes it anew. Times of the CPU are " +
+                     "of one machine at one time; everything else is the same wherever it runs. " +
+                     shownNumber(static_cast<double>(data.records().size()), 9) + " flights.\n";
   for (const Finding& finding : findings) page += markdownSection(finding);
   return page;
 }
@@ -178,8 +171,8 @@ void writeFlightReport(const FlightData& data, const std::vector<StudyFailure>& 
     writeFileAtomically(target.folder + '/' + finding.table.name + ".csv", csvOf(finding.table));
   writeFileAtomically(target.folder + "/report.html",
                       reportOf(data, findings, failures, missing, target));
-  if (!target.results.empty())
-    writeFileAtomically(target.results, flightResultsPage(data, findings, missing, target));
+  if (!target.results.empty() && missing == 0)
+    writeFileAtomically(target.results, flightResultsPage(data, findings, target));
 }
 
 }  // namespace grid_path_planner::flights

@@ -22,7 +22,7 @@ class WorldOutlines {
 };
 
 // Writes report.html, flights.csv, a CSV for each table and above_*.svg into `folder`, and, where
-// target.results names one, the page of results. `missing`: flights that were not flown.
+// target.results names one and none is missing, the page of results. `missing`: flights that were not flown.
 void writeFlightReport(const FlightData& data, const std::vector<study::StudyFailure>& failures,
                        std::size_t missing, const study::StudyTarget& target);
 

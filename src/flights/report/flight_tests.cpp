@@ -71,8 +71,17 @@ double publishedP(const FlightStudy& study, const FlightTest& test) {
   return -1.0;
 }
 
+std::string nameOf(const ComparedPair& pair) {
+  return pair.worse + "–" + pair.better;
+}
+
+bool isCompared(const ComparedPair& pair, const std::vector<FlightTest>& tests) {
+  return std::any_of(tests.begin(), tests.end(),
+                     [&pair](const FlightTest& test) { return test.pair == pair; });
+}
+
 std::string claimText(const FlightTest& test) {
-  return test.pair.worse + "–" + test.pair.better + ' ' + test.measure + " " +
+  return nameOf(test.pair) + ' ' + test.measure + " " +
          (test.testable ? "(p " + shownNumber(test.corrected, 2) + ")" : "(cannot be tested)");
 }
 
@@ -103,18 +112,31 @@ const char* textOf(ClaimVerdict verdict) {
 }
 
 ClaimVerdict verdictOn(const PublishedConclusion& claim, const std::vector<FlightTest>& tests) {
-  bool all = true, any = false;
-  for (const FlightTest& test : tests) {
-    if (std::find(claim.pairs.begin(), claim.pairs.end(), test.pair) == claim.pairs.end()) continue;
-    any = true;
-    const bool significant = test.testable && test.corrected < kSignificant;
-    if (significant && test.difference < 0.0) return ClaimVerdict::REFUTED;
-    all = all && significant;
+  bool all = !claim.pairs.empty();
+  for (const ComparedPair& pair : claim.pairs) {
+    all = all && isCompared(pair, tests);
+    for (const FlightTest& test : tests) {
+      if (!(test.pair == pair)) continue;
+      const bool significant = test.testable && test.corrected < kSignificant;
+      if (significant && test.difference < 0.0) return ClaimVerdict::REFUTED;
+      all = all && significant;
+    }
   }
-  return any && all ? ClaimVerdict::CONFIRMED : ClaimVerdict::UNDECIDED;
+  return all ? ClaimVerdict::CONFIRMED : ClaimVerdict::UNDECIDED;
 }
 
 namespace {
+
+// "" where none of its pairs was compared.
+std::string restsOn(const PublishedConclusion& claim, const std::vector<FlightTest>& tests) {
+  std::string rests, missing;
+  for (const FlightTest& test : tests)
+    if (std::find(claim.pairs.begin(), claim.pairs.end(), test.pair) != claim.pairs.end())
+      rests += (rests.empty() ? "" : ", ") + claimText(test);
+  for (const ComparedPair& pair : claim.pairs)
+    if (!isCompared(pair, tests)) missing += ", " + nameOf(pair) + " (not compared)";
+  return rests.empty() ? "" : rests + missing;
+}
 
 // As it was printed: six decimals at most, without trailing zeros.
 TableCell publishedCell(double p) {
@@ -131,7 +153,7 @@ TableCell publishedCell(double p) {
 std::vector<TableCell> rowOfTest(const std::string& rules, const FlightTest& test) {
   const TableCell none("–");
   return {rules,
-          test.pair.worse + "–" + test.pair.better,
+          nameOf(test.pair),
           test.measure,
           test.testable ? TableCell(test.difference, 3) : none,
           test.testable ? TableCell(test.p, 2) : none,
@@ -160,17 +182,14 @@ Finding claimsFinding(const FlightData& data) {
   Finding finding;
   finding.question = "What of the published conclusions holds here?";
   finding.table = {"claims",
-                   "Confirmed: every comparison is significant in its direction; refuted: one is "
-                   "against it; else undecided.",
+                   "Confirmed: every pair was compared, and every comparison is significant in its "
+                   "direction; refuted: one is against it; else undecided.",
                    {"rules", "conclusion", "verdict", "rests on"},
                    {}};
   for (const std::string& rules : data.rules()) {
     const std::vector<FlightTest> tests = flightTests(data, rules);
     for (const PublishedConclusion& claim : data.study().conclusions) {
-      std::string rests;
-      for (const FlightTest& test : tests)
-        if (std::find(claim.pairs.begin(), claim.pairs.end(), test.pair) != claim.pairs.end())
-          rests += (rests.empty() ? "" : ", ") + claimText(test);
+      const std::string rests = restsOn(claim, tests);
       if (rests.empty()) continue;
       const char* verdict = textOf(verdictOn(claim, tests));
       finding.table.rows.push_back({rules, claim.claim, verdict, rests});

@@ -28,6 +28,12 @@ std::string StudyNodes::resolved(const YAML::Node& node, const std::string& name
   return !named.empty() && named.front() == '/' ? named : folder + named;
 }
 
+void StudyNodes::refuseSameFile(const YAML::Node& node, std::set<std::string>& seen,
+                                const std::string& file) const {
+  if (!seen.insert(file).second)
+    throw yamlError(node, file_, describeYaml(node) + " has a file of another one: " + file);
+}
+
 void StudyNodes::atLine(const YAML::Node& node, const std::function<void()>& parse) const {
   try {
     parse();

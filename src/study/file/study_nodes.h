@@ -33,6 +33,10 @@ class StudyNodes {
       throw base::yamlError(node, file_, name + " names " + base::describeYaml(node) + " twice");
   }
 
+  // Of a name of which a file is made.
+  void refuseSameFile(const YAML::Node& node, std::set<std::string>& seen,
+                      const std::string& file) const;
+
   // The choices of an enum under `key`, or `fallback` alone.
   template <class E>
   std::vector<E> choicesUnder(const YAML::Node& root, const std::string& key, E fallback) const {

@@ -32,8 +32,9 @@ std::string csvCell(const TableCell& cell) {
 
 }  // namespace
 
-TableCell::TableCell(double number, int digits)
-    : text(shownNumber(number, digits)), number(number) {}
+TableCell::TableCell(double number, int digits) : text(shownNumber(number, digits)) {
+  if (!std::isnan(number)) this->number = number;
+}
 
 std::string shownNumber(double number, int digits) {
   if (std::isinf(number)) return number > 0 ? "∞" : "−∞";

@@ -13,11 +13,11 @@ struct TableCell {
 
   TableCell(std::string text) : text(std::move(text)) {}
   TableCell(const char* text) : text(text) {}
-  // Shown with `digits` significant digits.
+  // Shown with `digits` significant digits; NaN is a dash, and no number.
   TableCell(double number, int digits);
 };
 
-// Formatted digits, e.g. 0.0123, 4.57, 123, 45,678; whole numbers in full.
+// Formatted digits, e.g. 0.0123, 4.57, 123, 45,678; whole numbers in full. A dash for NaN.
 std::string shownNumber(double number, int digits = 3);
 
 struct Table {

@@ -50,12 +50,9 @@ Finding inputsFinding(const RecordedResults& results) {
   return finding;
 }
 
-// A dash where there was nothing to compare.
 void addSpread(const ErrorSpread& spread, Row& cells) {
-  cells.push_back(spread.count == 0 ? TableCell("–")
-                                    : withSpread(spread.metres, spread.metres_deviation));
-  cells.push_back(spread.count == 0 ? TableCell("–")
-                                    : withSpread(spread.degrees, spread.degrees_deviation));
+  cells.push_back(withSpread(spread.metres, spread.metres_deviation));
+  cells.push_back(withSpread(spread.degrees, spread.degrees_deviation));
 }
 
 // Calls `use` with each row that was played, and its result, in the order of the table.

@@ -6,7 +6,7 @@ using study::TableCell;
 
 TableCell withSpread(double value, double spread) {
   TableCell cell(value, 3);
-  cell.text += " ± " + study::shownNumber(spread, 2);
+  if (cell.number) cell.text += " ± " + study::shownNumber(spread, 2);
   return cell;
 }
 

@@ -9,7 +9,7 @@
 
 namespace grid_path_planner::trials {
 
-// "0.26 ± 0.39"
+// "0.26 ± 0.39"; a dash for NaN, where there was nothing to compare.
 study::TableCell withSpread(double value, double spread);
 
 // Published metres, degrees and m_A of a row; empty cells where it is not published.

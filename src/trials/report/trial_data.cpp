@@ -10,8 +10,8 @@ namespace grid_path_planner::trials {
 namespace {
 
 struct SecondsMean {
-  double mean = 0.0;
-  double inside = 0.0;
+  double mean = NAN;
+  double inside = NAN;
 };
 
 // `nees`: of each run, each second.
@@ -20,7 +20,7 @@ SecondsMean meanOverSeconds(const std::vector<const std::vector<double>*>& nees,
   for (const auto* run : nees) seconds = std::min(seconds, run->size());
   if (seconds == 0) return {};
   const auto bounds = localization::meanBounds(dimension, static_cast<int>(nees.size()), 0.95);
-  SecondsMean result;
+  SecondsMean result{0.0, 0.0};
   for (std::size_t second = 0; second < seconds; ++second) {
     double sum = 0.0;
     for (const auto* run : nees) sum += (*run)[second];
@@ -35,7 +35,8 @@ SecondsMean meanOverSeconds(const std::vector<const std::vector<double>*>& nees,
 }  // namespace
 
 MeanAndSpread meanOf(const std::vector<double>& values) {
-  MeanAndSpread result;
+  if (values.empty()) return {};
+  MeanAndSpread result{0.0, 0.0, 0.0};
   const auto count = static_cast<double>(values.size());
   for (const double value : values) result.mean += value / count;
   for (const double value : values)
@@ -59,8 +60,10 @@ bool TrialData::canBeReported() const {
 std::vector<double> TrialData::figures(
     std::size_t set, std::size_t row, const std::function<double(const RowResult&)>& figure) const {
   std::vector<double> values;
-  for (const RunRecord& run : runs)
-    if (run.set == set && run.seed != kShownSeed) values.push_back(figure(run.rows[row]));
+  for (const RunRecord& run : runs) {
+    if (run.set != set || run.seed == kShownSeed) continue;
+    if (const double value = figure(run.rows[row]); !std::isnan(value)) values.push_back(value);
+  }
   return values;
 }
 
@@ -88,7 +91,7 @@ bool TrialData::hasSet(const std::string& name) const {
 Consistency consistencyOf(const TrialData& data, std::size_t set, std::size_t row) {
   std::vector<const std::vector<double>*> all, pose;
   for (const RunRecord& run : data.runs)
-    if (run.set == set && run.seed != kShownSeed) {
+    if (run.set == set && run.seed != kShownSeed && !run.rows[row].nees.empty()) {
       all.push_back(&run.rows[row].nees);
       pose.push_back(&run.rows[row].pose_nees);
     }

@@ -1,6 +1,7 @@
 // What a study of localization found, by error set and row.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -11,11 +12,12 @@
 namespace grid_path_planner::trials {
 
 struct MeanAndSpread {
-  double mean = 0.0;
-  double deviation = 0.0;       // of the runs about their mean
-  double standard_error = 0.0;  // of the mean; of one run it is not known, and 0
+  double mean = NAN;
+  double deviation = NAN;       // of the runs about their mean
+  double standard_error = NAN;  // of the mean; of one run it is not known, and 0
 };
 
+// NaN of no values.
 MeanAndSpread meanOf(const std::vector<double>& values);
 
 struct TrialData {
@@ -26,7 +28,7 @@ struct TrialData {
 
   // Whether each error set has the run with the images' own poses, and two others.
   bool canBeReported() const;
-  // A figure of a row, of each seed; the run with the images' own poses is none of them.
+  // A figure of a row, of each seed in which there is one (no NaN); the run with the images' own poses is none of them.
   std::vector<double> figures(std::size_t set, std::size_t row,
                               const std::function<double(const RowResult&)>& figure) const;
   MeanAndSpread mean(std::size_t set, std::size_t row,
@@ -38,10 +40,11 @@ struct TrialData {
   bool hasSet(const std::string& name) const;
 };
 
-// Mean NEES of the runs at each second, and the share of seconds in which it is inside its 95 % bounds.
+// Mean NEES of the runs at each second, and the share of seconds in which it is inside its 95 % bounds. NaN where
+// there is no second that all runs with any have.
 struct Consistency {
-  double mean = 0.0, pose_mean = 0.0;
-  double inside = 0.0, pose_inside = 0.0;  // shares
+  double mean = NAN, pose_mean = NAN;
+  double inside = NAN, pose_inside = NAN;  // shares
 };
 Consistency consistencyOf(const TrialData& data, std::size_t set, std::size_t row);
 

@@ -248,12 +248,14 @@ Finding tracksFinding(const TrialData& data) {
 }
 
 Finding goalsFinding(const TrialData& data) {
-  Finding finding{"Which goals are met?",
-                  {"goals",
-                   "Means over the seeds, those of NEES with their standard error.",
-                   {"goal", "wanted", "found", "standard error", "unit", "met"},
-                   {}},
-                  {}};
+  Finding finding{
+      "Which goals are met?",
+      {"goals",
+       "Means over the seeds, those of NEES with their standard error. A dash: nothing was "
+       "seen of it, and the goal is not met.",
+       {"goal", "wanted", "found", "standard error", "unit", "met"},
+       {}},
+      {}};
   std::size_t met = 0;
   const std::vector<Goal> goals = goalsOf(data);
   for (const Goal& goal : goals) {
@@ -272,9 +274,10 @@ Finding predictionsFinding(const TrialData& data) {
   Finding finding{
       "What of that was predicted?",
       {"predictions",
-       "A limit is confirmed where it holds in 95 % of the runs, refuted where it holds in 5 % or "
+       "A limit is confirmed where it holds in 95 % of the runs that have its figures, refuted "
+       "where it holds in 5 % or "
        "less; which of two is larger, where more runs say so than by chance (two standard errors "
-       "from a half), or fewer.",
+       "from a half), or fewer; undecided where nothing was seen.",
        {"prediction", "verdict", "figures"},
        {}},
       {""}};

@@ -1,6 +1,7 @@
 // What a study of localization shows: figures beside the published ones, consistency, goals, predictions.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ study::Finding goalsFinding(const TrialData& data);
 study::Finding predictionsFinding(const TrialData& data);
 std::vector<study::Finding> trialFindings(const TrialData& data);
 
-// How far panels seen in one water are off by one method, over all images with such a pose.
+// How far panels seen in one water are off by one method, over all images with such a pose; NaN without any.
 enum class PanelMethod { MEAN, SEQUENTIAL, JOINT };
 ErrorSpread panelError(const TrialData& data, std::size_t set, Water water, PanelMethod method);
 
@@ -26,7 +27,7 @@ struct Goal {
   std::string name;
   std::string wanted;
   std::string unit;
-  double found = 0.0;
+  double found = NAN;                    // NaN: there was nothing to judge by, and it is not met
   std::optional<double> standard_error;  // of `found`, where that is a mean of NEES over the seeds
   bool met = false;
 };

@@ -80,14 +80,19 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+std::string yamlNumber(double number) {
+  if (std::isnan(number)) return ".nan";
+  if (std::isinf(number)) return number > 0.0 ? ".inf" : "-.inf";
+  return base::decimalText(number);
+}
+
 // In YAML.
 std::string summaryOf(const TrialData& data) {
-  std::string text = "goals:\n";
+  std::string text = "missing: " + std::to_string(data.missing) + "\ngoals:\n";
   for (const Goal& goal : goalsOf(data))
     text += "  - {goal: " + quoted(goal.name) + ", wanted: " + quoted(goal.wanted) +
-            ", found: " + base::decimalText(goal.found) +
-            (goal.standard_error ? ", standard_error: " + base::decimalText(*goal.standard_error)
-                                 : "") +
+            ", found: " + yamlNumber(goal.found) +
+            (goal.standard_error ? ", standard_error: " + yamlNumber(*goal.standard_error) : "") +
             ", unit: " + quoted(goal.unit) + ", met: " + (goal.met ? "true" : "false") + "}\n";
   text += "predictions:\n";
   for (const Prediction& prediction : predictionsOf(data))
@@ -114,7 +119,7 @@ void writeTrialReport(const TrialData& data, const StudyTarget& target) {
     writeFileAtomically(target.folder + '/' + finding.table.name + ".csv", csvOf(finding.table));
   writeFileAtomically(target.folder + "/summary.yaml", summaryOf(data));
   writeFileAtomically(target.folder + "/report.html", pageOf(data, findings, target));
-  if (!target.results.empty())
+  if (!target.results.empty() && data.missing == 0)
     writeFileAtomically(target.results, resultsPage(findings, data, target));
 }
 

@@ -1,4 +1,4 @@
-// The report of a study of localization: report.html, tables as CSV, summary.yaml.
+// The report of a study of localization: report.html, tables as CSV, summary.yaml, a page of results.
 #pragma once
 
 #include "grid_path_planner/study/study_job.h"
@@ -6,7 +6,7 @@
 
 namespace grid_path_planner::trials {
 
-// Throws InputError where a file cannot be written.
+// The page of results is written where no unit is missing. Throws InputError where a file cannot be written.
 void writeTrialReport(const TrialData& data, const study::StudyTarget& target);
 
 }  // namespace grid_path_planner::trials
