@@ -45,7 +45,7 @@ class LayeredMap {
   void setSpeedMask(Map mask);
 
   void insert(const ScanInMap& scan);
-  // Obstacles that were not hit for options.scan.decay_time before `now` (s) are forgotten.
+  // Obstacles that were not hit for options.scan.decay_time before `now` (s) are forgotten, as ScanLayer::expire().
   void expireScans(double now);
   void forgetScans();
 

@@ -12,9 +12,16 @@ using Eigen::Vector2d;
 using grid::Cell;
 using grid::OccupancyGrid;
 
+namespace {
+
+constexpr double kLongestStep = 10.0;  // s by which marks grow older in a call of expire() at most
+
+}  // namespace
+
 void ScanLayer::reset(OccupancyGrid& layer) {
   std::fill(layer.values().begin(), layer.values().end(), std::int8_t{-1});
   marks_.clear();
+  expired_at_.reset();
   mark_numbers_ = grid::Grid<std::uint32_t>(layer.geometry(), 0);
 }
 
@@ -50,8 +57,10 @@ void ScanLayer::insert(const ScanInMap& scan, const ScanLayerOptions& options, O
 }
 
 void ScanLayer::expire(double now, double decay_time, OccupancyGrid& layer, ChangedCells& changed) {
+  const double surplus = expired_at_ ? std::max(now - *expired_at_ - kLongestStep, 0.0) : 0.0;
   std::vector<Mark> kept;
-  for (const Mark& mark : marks_) {
+  for (Mark mark : marks_) {
+    mark.time = std::max(mark.time, std::min(mark.time + surplus, now));
     mark_numbers_[mark.cell] = 0;
     if (layer[mark.cell] != 100) continue;
     if (decay_time > 0.0 && now - mark.time > decay_time) {
@@ -62,6 +71,7 @@ void ScanLayer::expire(double now, double decay_time, OccupancyGrid& layer, Chan
     mark_numbers_[mark.cell] = static_cast<std::uint32_t>(kept.size());
   }
   marks_ = std::move(kept);
+  expired_at_ = now;
 }
 
 }  // namespace grid_path_planner::layers

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "grid_path_planner/grid/occupancy.h"
@@ -43,7 +44,8 @@ class ScanLayer {
   void insert(const ScanInMap& scan, const ScanLayerOptions& options, grid::OccupancyGrid& layer,
               ChangedCells& changed);
 
-  // Marks whose last hit is more than `decay_time` seconds before `now` become unknown. 0: they stay.
+  // Marks whose last hit is more than `decay_time` seconds before `now` become unknown. 0: they stay. Of what passed since
+  // the last call 10 s count at most, so that a clock that is put forward forgets nothing: no laser looked meanwhile.
   void expire(double now, double decay_time, grid::OccupancyGrid& layer, ChangedCells& changed);
 
  private:
@@ -53,9 +55,10 @@ class ScanLayer {
 
   struct Mark {
     grid::Cell cell;
-    double time;  // s, of its last hit
+    double time;  // s, of its last hit; later where the clock leapt since then
   };
 
+  std::optional<double> expired_at_;        // s, the last call of expire()
   std::vector<Mark> marks_;                 // of cells that are or were 100
   grid::Grid<std::uint32_t> mark_numbers_;  // in marks_, from 1; 0: none
 };

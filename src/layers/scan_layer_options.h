@@ -21,11 +21,12 @@ void visitOptions(ScanLayerOptions& o, Visitor&& visit) {
             .under("The laser"));
   visit("clearing_max_range", o.clearing_max_range,
         base::OptionInfo{"How far along a ray cells are cleared; 0: none are", "m", 0.0, 1000.0});
-  visit(
-      "decay_time", o.decay_time,
-      base::OptionInfo{"An obstacle that was not hit for so long is forgotten, so that what moved "
-                       "on behind the vehicle does not stay; 0: only rays clear",
-                       "s", 0.0, 1e6});
+  visit("decay_time", o.decay_time,
+        base::OptionInfo{
+            "An obstacle that was not hit for so long is forgotten, so that what moved "
+            "on behind the vehicle does not stay; a leap of the clock counts as 10 s; 0: "
+            "only rays clear",
+            "s", 0.0, 1e6});
   visit("inf_clears", o.inf_clears,
         base::OptionInfo{"Whether a ray without a return (+inf) is free up to clearing_max_range; "
                          "false: it says nothing, as lasers give +inf for black things too",

@@ -8,6 +8,7 @@
 
 #include "mapping/column_values.h"
 #include "mapping/extent.h"
+#include "mapping/reached_columns.h"
 #include "mapping/seabed.h"
 
 namespace grid_path_planner::mapping {
@@ -19,7 +20,6 @@ using grid::OccupancyGrid;
 
 namespace {
 
-constexpr int kBricks = 65536 / 8;  // along a side
 constexpr std::int64_t kMostCells = std::int64_t{1} << 28;
 
 bool inOrder(BrickColumn a, BrickColumn b) {
@@ -166,16 +166,11 @@ void Projection::projectColumns(const OccupancyBricks& bricks, CellRect& changed
 
 // Where the bottom of the seabed changed, the seabed's height may change in the columns around it.
 void Projection::addSeabedNeighbours(const OccupancyBricks& bricks) {
-  const int reach = seabed_->reach();
-  std::vector<BrickColumn> reached;
-  for (const BrickColumn column : pending_columns_) {
-    if (!seabed_->update(bricks, column)) continue;
-    const CellRect around =
-        CellRect{column.x, column.y, 1, 1}.grown(reach).intersection({0, 0, kBricks, kBricks});
-    for (int y = around.row; y < around.row + around.height; ++y)
-      for (int x = around.column; x < around.column + around.width; ++x)
-        reached.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
-  }
+  std::vector<BrickColumn> changed;
+  for (const BrickColumn column : pending_columns_)
+    if (seabed_->update(bricks, column)) changed.push_back(column);
+  const std::vector<BrickColumn> reached =
+      reachedColumns(bricks, std::move(changed), seabed_->reach());
   pending_columns_.insert(pending_columns_.end(), reached.begin(), reached.end());
   sortUnique(pending_columns_);
 }

@@ -2,22 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <utility>
 
 namespace grid_path_planner::mapping {
 namespace {
 
+std::uint32_t hashKey(int x, int y) {
+  return static_cast<std::uint32_t>(x) << 16 | static_cast<std::uint32_t>(y);
+}
+
 std::uint32_t hashKey(BrickColumn column) {
-  return static_cast<std::uint32_t>(column.x) << 16 | column.y;
+  return hashKey(column.x, column.y);
 }
 
-// From `cell` to the nearest of the eight columns from `first` on, along one axis.
-int distanceToRun(int cell, int first) {
-  return std::max({first - cell, cell - (first + 7), 0});
+// Along one axis, between the nearest two of `one_length` cells from `one` on and of `other_length` from `other` on.
+int gap(int one, int one_length, int other, int other_length) {
+  return std::max({other - (one + one_length - 1), one - (other + other_length - 1), 0});
 }
 
-double length(int dx, int dy) {
-  return std::sqrt(static_cast<double>(dx * dx + dy * dy));
+// Of any cells of the tree: in int the squares overflow.
+double length(double dx, double dy) {
+  return std::sqrt(dx * dx + dy * dy);
 }
 
 }  // namespace
@@ -58,58 +63,90 @@ bool Seabed::update(const OccupancyBricks& bricks, BrickColumn column) {
   if (before == bottoms_.end()) {
     if (now.least == kNoBottom) return false;
     bottoms_.emplace(hashKey(column), now);
-    return true;
-  }
-  if (before->second.z == now.z) return false;
-  if (now.least == kNoBottom)
+  } else if (before->second.z == now.z) {
+    return false;
+  } else if (now.least == kNoBottom) {
     bottoms_.erase(before);
-  else
+  } else {
     before->second = now;
+  }
+  updateSquares(column);
   return true;
 }
 
-std::vector<Seabed::Neighbour> Seabed::neighboursOf(BrickColumn column) const {
-  std::vector<Neighbour> neighbours;
-  for (int dy = -reach_; dy <= reach_; ++dy)
-    for (int dx = -reach_; dx <= reach_; ++dx) {
-      const int x = column.x + dx;
-      const int y = column.y + dy;
-      if (x < 0 || y < 0 || x > UINT16_MAX || y > UINT16_MAX) continue;
-      const auto found =
-          bottoms_.find(hashKey({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)}));
-      if (found != bottoms_.end()) neighbours.push_back({8 * dx, 8 * dy, &found->second});
-    }
-  // The nearest first: they lower the height, so that most others can be skipped.
-  std::stable_sort(neighbours.begin(), neighbours.end(),
-                   [](const Neighbour& a, const Neighbour& b) {
-                     return a.dx * a.dx + a.dy * a.dy < b.dx * b.dx + b.dy * b.dy;
-                   });
-  return neighbours;
+// Of squares that hold a bottom, as of columns.
+void Seabed::updateSquares(BrickColumn column) {
+  for (int level = 1; level <= kLevels; ++level) {
+    const Square square{level, column.x >> level, column.y >> level};
+    int least = kNoBottom;
+    for (int quarter = 0; quarter < 4; ++quarter)
+      least = std::min(least, leastIn(quarterOf(square, quarter % 2, quarter / 2)));
+    if (least == leastIn(square)) return;
+    auto& squares = squares_[static_cast<std::size_t>(level - 1)];
+    if (least == kNoBottom)
+      squares.erase(hashKey(square.x, square.y));
+    else
+      squares[hashKey(square.x, square.y)] = least;
+  }
 }
 
-double Seabed::heightAt(int x, int y, const std::vector<Neighbour>& neighbours) const {
-  double height = kNone;
-  for (const Neighbour& neighbour : neighbours) {
-    const double nearest = length(distanceToRun(x, neighbour.dx), distanceToRun(y, neighbour.dy));
-    if (nearest > radius_ || neighbour.bottoms->least + max_slope_ * nearest >= height) continue;
-    for (int row = 0; row < 8; ++row)
-      for (int column = 0; column < 8; ++column) {
-        const int bottom = neighbour.bottoms->z[static_cast<std::size_t>(8 * row + column)];
-        if (bottom >= height) continue;
-        const double distance = length(neighbour.dx + column - x, neighbour.dy + row - y);
-        if (distance <= radius_ && bottom != kNoBottom)
-          height = std::min(height, bottom + max_slope_ * distance);
-      }
+Seabed::Square Seabed::quarterOf(const Square& square, int right, int upper) {
+  return {square.level - 1, 2 * square.x + right, 2 * square.y + upper};
+}
+
+int Seabed::leastIn(const Square& square) const {
+  const std::uint32_t key = hashKey(square.x, square.y);
+  if (square.level == 0) {
+    const auto found = bottoms_.find(key);
+    return found == bottoms_.end() ? kNoBottom : found->second.least;
   }
-  return height;
+  const auto& squares = squares_[static_cast<std::size_t>(square.level - 1)];
+  const auto found = squares.find(key);
+  return found == squares.end() ? kNoBottom : found->second;
+}
+
+// By the bottoms of one brick column, which lies `dx` and `dy` columns from the one that the heights are of.
+void Seabed::lowerBy(const Bottoms& bottoms, int dx, int dy, Heights& heights) const {
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x) {
+      double& height = heights[static_cast<std::size_t>(8 * y + x)];
+      const double nearest = length(gap(x, 1, dx, 8), gap(y, 1, dy, 8));
+      if (nearest > radius_ || bottoms.least + max_slope_ * nearest >= height) continue;
+      for (int row = 0; row < 8; ++row)
+        for (int column = 0; column < 8; ++column) {
+          const int bottom = bottoms.z[static_cast<std::size_t>(8 * row + column)];
+          if (bottom >= height) continue;
+          const double distance = length(dx + column - x, dy + row - y);
+          if (distance <= radius_ && bottom != kNoBottom)
+            height = std::min(height, bottom + max_slope_ * distance);
+        }
+    }
+}
+
+// By all of a square. The quarter that is nearest first: it lowers the heights, so that most others can be passed over.
+void Seabed::lowerBySquare(const Square& square, BrickColumn column, Heights& heights) const {
+  const int side = 8 << square.level;
+  const double nearest = length(gap(8 * column.x, 8, side * square.x, side),
+                                gap(8 * column.y, 8, side * square.y, side));
+  if (nearest > radius_) return;
+  const int least = leastIn(square);
+  if (least == kNoBottom ||
+      least + max_slope_ * nearest >= *std::max_element(heights.begin(), heights.end()))
+    return;
+  if (square.level == 0)
+    return lowerBy(bottoms_.at(hashKey(square.x, square.y)), 8 * (square.x - column.x),
+                   8 * (square.y - column.y), heights);
+  const int right = column.x >> (square.level - 1) > 2 * square.x ? 1 : 0;
+  const int upper = column.y >> (square.level - 1) > 2 * square.y ? 1 : 0;
+  for (const auto& [across, along] :
+       {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)})
+    lowerBySquare(quarterOf(square, right ^ across, upper ^ along), column, heights);
 }
 
 Seabed::Heights Seabed::heightsAt(BrickColumn column) const {
-  const std::vector<Neighbour> neighbours = neighboursOf(column);
   Heights heights;
-  for (int y = 0; y < 8; ++y)
-    for (int x = 0; x < 8; ++x)
-      heights[static_cast<std::size_t>(8 * y + x)] = heightAt(x, y, neighbours);
+  heights.fill(kNone);
+  lowerBySquare({kLevels, 0, 0}, column, heights);
   return heights;
 }
 

@@ -9,15 +9,16 @@
 // max_slope is seabed throughout, and objects standing on it are not. A lowest voxel under which
 // free space was seen hangs over the ground (a hull) and is no bottom.
 //
-// Guaranteed: exact, and a function of the tree alone. Not guaranteed: a seabed that was not seen.
-// A wall whose foot was never seen, with nothing else seen within the radius, counts as seabed from
-// its lowest seen voxel on. One voxel below the true seabed raises obstacles around itself.
+// Guaranteed: exact, and a function of the tree alone. heightsAt() looks at squares of columns that
+// have a bottom, the nearest first, and into those only that may lower a height: its work depends on
+// what is there, and little on the radius. Not guaranteed: a seabed that was not seen. A wall whose
+// foot was never seen, with nothing else seen within the radius, counts as seabed from its lowest
+// seen voxel on. One voxel below the true seabed raises obstacles around itself.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <unordered_map>
-#include <vector>
 
 #include "grid_path_planner/mapping/occupancy_bricks.h"
 
@@ -47,20 +48,27 @@ class Seabed {
     std::array<std::int32_t, 64> z;  // keys, or kNoBottom
     std::int32_t least = kNoBottom;
   };
-  struct Neighbour {
-    int dx = 0;  // columns from the brick column asked about to this one
-    int dy = 0;
-    const Bottoms* bottoms = nullptr;
+  static constexpr int kLevels = 13;  // 2^13 brick columns are all that a tree has along a side
+  // Of 2^level brick columns along x and along y; x and y count such squares.
+  struct Square {
+    int level = 0;
+    int x = 0;
+    int y = 0;
   };
 
   static Bottoms bottomsOf(const OccupancyBricks& bricks, BrickColumn column);
-  double heightAt(int x, int y, const std::vector<Neighbour>& neighbours) const;
-  std::vector<Neighbour> neighboursOf(BrickColumn column) const;
+  static Square quarterOf(const Square& square, int right, int upper);
+  void updateSquares(BrickColumn column);
+  int leastIn(const Square& square) const;
+  void lowerBy(const Bottoms& bottoms, int dx, int dy, Heights& heights) const;
+  void lowerBySquare(const Square& square, BrickColumn column, Heights& heights) const;
 
   double radius_;  // voxels
   double max_slope_;
   int reach_;
   std::unordered_map<std::uint32_t, Bottoms> bottoms_;  // only those that have one
+  // The least bottom of each square that has one, of level 1 and up.
+  std::array<std::unordered_map<std::uint32_t, std::int32_t>, kLevels> squares_;
 };
 
 }  // namespace grid_path_planner::mapping

@@ -88,6 +88,26 @@ TEST_F(LaserPicture, MarksThatAreNotHitAgainAreForgotten) {
   EXPECT_EQ(row(0), "....  ");
 }
 
+// NTP set the clock forward, or a /clock of far ahead came: all that the laser had marked was forgotten at once.
+TEST_F(LaserPicture, AClockThatLeapsAheadForgetsNothing) {
+  see(1.0, {{{4.5, 0.5}, 0, true}});
+  layer_.expire(2.0, 60.0, map_, changed_);
+  see(1e6, {{{2.5, 2.4}, 0, true}});  // by the new clock, before it is asked what expires
+  layer_.expire(1e6, 60.0, map_, changed_);
+  EXPECT_EQ(row(0), "....# ") << "it is 11 s old";
+  EXPECT_EQ(row(2), "  #   ");
+  for (double passed = 10.0; passed <= 40.0; passed += 10.0)
+    layer_.expire(1e6 + passed, 60.0, map_, changed_);
+  EXPECT_EQ(row(0), "....# ");
+  layer_.expire(1e6 + 50.0, 60.0, map_, changed_);
+  EXPECT_EQ(row(0), "....  ") << "61 s, and nobody has seen it again";
+  EXPECT_EQ(row(2), "  #   ");
+  layer_.expire(1e6 + 59.0, 60.0, map_, changed_);
+  EXPECT_EQ(row(2), "  #   ");
+  layer_.expire(1e6 + 61.0, 60.0, map_, changed_);
+  EXPECT_EQ(row(2), "      ");
+}
+
 // By another hand: every cell of the map is asked whether the segment meets its interior.
 TEST(RayCells, AreThoseThatTheSegmentMeets) {
   std::mt19937 random(3);

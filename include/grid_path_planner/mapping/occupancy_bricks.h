@@ -78,6 +78,8 @@ class OccupancyBricks {
 
   // Every column with a known voxel, in no particular order.
   std::vector<BrickColumn> columns() const;
+  // columns() has no more than these; without a walk through them.
+  std::size_t mostColumns() const { return columns_.size(); }
 
   // Calls visit(std::uint16_t z, const Brick&) for every brick of the column from the lowest up.
   template <class Visit>

@@ -46,8 +46,8 @@ void visitOptions(OctreeOptions& o, Visitor&& visit) {
         base::OptionInfo{"A voxel is occupied from this probability on", "", 0.0, 1.0});
   visit("decay_time", o.decay_time,
         base::OptionInfo{
-            "A voxel surely occupied is unknown again when it has not been seen for this long; "
-            "0: never",
+            "A voxel surely occupied is unknown again when it has not been seen for this long; a "
+            "leap of the clock counts as 10 s, or as two periods of publish_rate; 0: never",
             "s", 0.0, 1e9});
   visit("memory_limit", o.memory_limit,
         base::OptionInfo{

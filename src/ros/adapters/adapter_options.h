@@ -8,7 +8,7 @@ namespace grid_path_planner::nodes {
 
 struct AdapterOptions {
   planning::CostPlannerOptions planner;
-  double pose_spacing = -1.0;  // m; -1: a cell of the costmap
+  double pose_spacing = -1.0;  // m; -1: a cell of the costmap; 0: corners only
 };
 
 template <class Visitor>
@@ -17,10 +17,14 @@ void visitOptions(AdapterOptions& o, Visitor&& visit) {
   visit("pose_spacing", o.pose_spacing,
         base::OptionInfo{
             "Distance between poses of a plan at most, in equal parts between corners, for "
-            "local planners that go from pose to pose; -1: one cell of the costmap; 0: "
-            "corners only",
+            "local planners that go from pose to pose, 0.001 m or more; -1: one cell of the "
+            "costmap; 0: corners only",
             "m", -1, 10000}
             .under("The plan"));
 }
+
+// Throws InputError naming the option for a pose_spacing above 0 and below 0.001 m, of which one plan would take hundreds
+// of megabytes, and as checkCostPlannerOptions().
+void checkAdapterOptions(const AdapterOptions& options);
 
 }  // namespace grid_path_planner::nodes

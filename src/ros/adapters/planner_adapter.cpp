@@ -6,29 +6,26 @@
 #include <cmath>
 #include <utility>
 
+#include "base/current_error.h"
 #include "grid_path_planner/MoveBasePluginConfig.h"
 #include "grid_path_planner/ros/conversions.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
 #include "path/pose_spacing.h"
 #include "ros/common/parameters.h"
 #include "ros/common/process/memory_limit_line.h"
 
 namespace grid_path_planner::nodes {
 
-using base::InputError, base::Status, base::StopSource;
+using base::currentErrorText, base::InputError, base::Status, base::StopSource;
 using path::Path, path::Pose, path::spacedPoses;
-using planning::checkCostPlannerOptions, planning::failedPlan, planning::Plan,
-    planning::PoseRequest;
+using planning::failedPlan, planning::Plan, planning::PoseRequest;
 
 namespace {
-
-std::string withoutSlash(const std::string& frame) {
-  return frame.empty() || frame[0] != '/' ? frame : frame.substr(1);
-}
 
 AdapterOptions loadedOptions(const ros::NodeHandle& private_nh) {
   AdapterOptions options;
   loadParameters(private_nh, options);
-  checkCostPlannerOptions(options.planner);
+  checkAdapterOptions(options);
   warnUnknownParameters(private_nh, optionNames<AdapterOptions>());
   return options;
 }
@@ -84,7 +81,7 @@ class PlannerAdapter::Reconfiguration {
   Reconfiguration(const ros::NodeHandle& private_nh, const AdapterOptions& options,
                   PlannerAdapter& adapter)
       : server_(private_nh, options, [&adapter](const AdapterOptions& wanted) {
-          checkCostPlannerOptions(wanted.planner);
+          checkAdapterOptions(wanted);
           const std::lock_guard<std::mutex> lock(adapter.mutex_);
           adapter.wanted_ = wanted;
         }) {}
@@ -94,7 +91,7 @@ class PlannerAdapter::Reconfiguration {
 };
 
 PlannerAdapter::PlannerAdapter(const ros::NodeHandle& private_nh, const std::string& frame_id)
-    : frame_id_(withoutSlash(frame_id)),
+    : frame_id_(frameName(frame_id)),
       options_(loadedOptions(private_nh)),
       planner_(options_.planner) {
   const planners::SearchOptions& search = options_.planner.search;
@@ -127,28 +124,41 @@ PlannerAdapter::Answer PlannerAdapter::makePlan(const geometry_msgs::PoseStamped
                                                 const geometry_msgs::PoseStamped& goal,
                                                 std::optional<double> tolerance,
                                                 const GiveCosts& give_costs) {
-  const Active active(*this);
-  const std::lock_guard<std::mutex> one_at_a_time(planning_);
-  Plan found;
+  try {
+    const Active active(*this);
+    const std::lock_guard<std::mutex> one_at_a_time(planning_);
+    Answer answer = answerTo(start, goal, tolerance, give_costs, active.stop());
+    log(answer);
+    return answer;
+  } catch (const std::exception&) {  // what is said here is short enough to need no memory itself
+    return {Status::INVALID_REQUEST, "no memory left", 0.0, {}};
+  }
+}
+
+PlannerAdapter::Answer PlannerAdapter::answerTo(const geometry_msgs::PoseStamped& start,
+                                                const geometry_msgs::PoseStamped& goal,
+                                                std::optional<double> tolerance,
+                                                const GiveCosts& give_costs,
+                                                const StopSource& stop) {
   try {
     takeOptions();
-    found = plan(start, goal, tolerance, give_costs, active.stop());
-  } catch (const std::exception& error) {
-    found = failedPlan(Status::INVALID_REQUEST, error.what());
+    return answerOf(plan(start, goal, tolerance, give_costs, stop));
+  } catch (const std::exception&) {
+    return {Status::INVALID_REQUEST, currentErrorText(), 0.0, {}};
   }
-  Answer answer = answerOf(std::move(found));
-  log(answer);
-  return answer;
 }
 
 Plan PlannerAdapter::plan(const geometry_msgs::PoseStamped& start,
                           const geometry_msgs::PoseStamped& goal, std::optional<double> tolerance,
                           const GiveCosts& give_costs, const StopSource& stop) {
-  for (const geometry_msgs::PoseStamped* each : {&start, &goal})
-    if (withoutSlash(each->header.frame_id) != frame_id_)
-      return failedPlan(Status::TRANSFORM_ERROR,
-                        std::string(each == &start ? "the start" : "the goal") + " is in frame '" +
-                            each->header.frame_id + "', the costmap in '" + frame_id_ + "'");
+  for (const geometry_msgs::PoseStamped* each : {&start, &goal}) {
+    const char* const which = each == &start ? "start" : "goal";
+    const std::string frame = named(which, [&] { return frameName(each->header.frame_id); });
+    if (frame != frame_id_)
+      return failedPlan(Status::TRANSFORM_ERROR, std::string("the ") + which + " is in frame '" +
+                                                     frame + "', the costmap in '" + frame_id_ +
+                                                     "'");
+  }
   const PoseRequest request{named("start", [&] { return startPose(start.pose); }),
                             named("goal", [&] { return poseFromMessage(goal.pose); })};
   const double within = tolerance.value_or(options_.planner.default_tolerance);
@@ -174,8 +184,10 @@ PlannerAdapter::Answer PlannerAdapter::answerOf(Plan plan) {
 void PlannerAdapter::log(const Answer& answer) {
   const std::string text = std::string(toString(answer.status)) + ": " + answer.message;
   ROS_DEBUG_STREAM_NAMED("grid_path_planner", text);
-  if (!answer.found() && text != last_failure_) ROS_WARN_STREAM("grid_path_planner: " << text);
-  last_failure_ = answer.found() ? "" : text;
+  if (answer.found()) return last_failure_.clear();
+  if (text == last_failure_ || !seldom_.isDue()) return;
+  ROS_WARN_STREAM("grid_path_planner: " << text);
+  last_failure_ = text;
 }
 
 }  // namespace grid_path_planner::nodes

@@ -7,7 +7,8 @@
 //   adapter.cancel();  // in another thread
 //
 // Reads AdapterOptions of the namespace, offers them to dynamic_reconfigure and publishes every plan
-// as `plan` in it. A failure is logged as a WARN when its sentence is another one than before.
+// as `plan` in it. A failure is logged as a WARN when its sentence is another one than before, once in
+// a second at most.
 // Calls of makePlan() in several threads wait for one another; cancel() waits for nothing.
 #pragma once
 
@@ -27,6 +28,7 @@
 #include "grid_path_planner/planning/plan.h"
 #include "planning/cost_planner.h"
 #include "ros/adapters/adapter_options.h"
+#include "ros/common/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 
@@ -49,7 +51,8 @@ class PlannerAdapter {
   ~PlannerAdapter();
 
   // The poses are in the costmap's frame, else TRANSFORM_ERROR. The start may tilt, as vehicles do.
-  // `tolerance`: metres; none: the parameter default_tolerance.
+  // `tolerance`: metres; none: the parameter default_tolerance. Whatever fails, memory too, is an answer:
+  // an exception would end the thread of move_base that plans, and move_base with it.
   Answer makePlan(const geometry_msgs::PoseStamped& start, const geometry_msgs::PoseStamped& goal,
                   std::optional<double> tolerance, const GiveCosts& give_costs);
 
@@ -63,6 +66,9 @@ class PlannerAdapter {
   planning::Plan plan(const geometry_msgs::PoseStamped& start,
                       const geometry_msgs::PoseStamped& goal, std::optional<double> tolerance,
                       const GiveCosts& give_costs, const base::StopSource& stop);
+  Answer answerTo(const geometry_msgs::PoseStamped& start, const geometry_msgs::PoseStamped& goal,
+                  std::optional<double> tolerance, const GiveCosts& give_costs,
+                  const base::StopSource& stop);
   void takeOptions();
   Answer answerOf(planning::Plan plan);
   void log(const Answer& answer);
@@ -72,8 +78,9 @@ class PlannerAdapter {
   std::mutex planning_;  // of what makePlan() uses
   AdapterOptions options_;
   planning::CostPlanner planner_;
-  std::string last_failure_;
-  std::mutex mutex_;  // of what follows, held for no longer than it takes to read and write
+  LogThrottle seldom_{1.0};
+  std::string last_failure_;  // of which the log has told
+  std::mutex mutex_;          // of what follows, held for no longer than it takes to read and write
   std::list<base::StopSource> active_;
   std::optional<AdapterOptions> wanted_;  // since the last plan
   std::unique_ptr<Reconfiguration> reconfiguration_;

@@ -1,5 +1,6 @@
 #include "ros/mapping/projected_map_node.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,7 @@ namespace {
 constexpr double kCloudPeriod = 0.01;    // s of the wall clock between two lookups of transforms
 constexpr double kFirstCloudWait = 5.0;  // s of the wall clock without the first cloud
 constexpr double kDecayPeriod = 1.0;     // s of ROS time; decay visits every occupied voxel
+constexpr double kLongestDecay = 10.0;   // s of ROS time that a step of the decay counts at most
 
 void warnIgnoredParameters(const ros::NodeHandle& private_nh, std::vector<std::string>& known) {
   for (const std::string& name : unknownParameters(private_nh, known)) {
@@ -62,8 +64,8 @@ CloudQueueOptions queueOptions(const ProjectedMapOptions& options) {
           options.tf_timeout, options.queue_size};
 }
 
-// With the map that was kept; where it cannot be read, as without it. A reading that ends with the node
-// is no such case: the file is still good.
+// With the map that was kept; where it is damaged, as without it. A reading that ends with the node, or for want of
+// memory, is no such case: the file is still good, and is there when the node starts again.
 std::unique_ptr<MappingThread> makeThread(const ProjectedMapOptions& options,
                                           const MapAutosave* autosave) {
   const EndOfNode end;
@@ -74,6 +76,11 @@ std::unique_ptr<MappingThread> makeThread(const ProjectedMapOptions& options,
     if (kept.empty() || end.token().reason() != StopReason::NONE) throw;
     ROS_ERROR_STREAM("The map that was kept is lost: " << error.what());
     return std::make_unique<MappingThread>(options, "", end.token());
+  } catch (const std::bad_alloc&) {
+    if (kept.empty()) throw;
+    throw InputError(kept,
+                     "holds the map that was kept, for which there is not enough memory; the file "
+                     "stays for the next start");
   }
 }
 
@@ -116,9 +123,9 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
       private_service_nh, *thread_, files_,
       MappingServices::Listener{on_change, [this] { forgetAll(); },
                                 [this](MapModel& map) { insertAll(map); }});
-  diagnostics_ =
-      std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *thread_, *octree_publisher_,
-                                           autosave_.get(), options.autosave_period);
+  diagnostics_ = std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *thread_,
+                                                      *map_publisher_, *octree_publisher_,
+                                                      autosave_.get(), options.autosave_period);
   service_spinner_.start();
 
   using CloudEvent = ros::MessageEvent<const sensor_msgs::PointCloud2>;
@@ -291,7 +298,10 @@ void ProjectedMapNode::publish(MapModel& map) {
   decay(map);
   const ros::Time stamp = ros::Time::now();
   try {
-    if (updateVehicleHeight(map)) map_publisher_->publish(map, stamp);
+    if (updateVehicleHeight(map))
+      map_publisher_->publish(map, stamp);
+    else
+      map_publisher_->owe();
   } catch (const InputError& error) {
     static LogThrottle seldom(10.0);
     ROS_ERROR_STREAM_COND(seldom.isDue(), "projected_map stays as it was: " << error.what());
@@ -313,12 +323,13 @@ void ProjectedMapNode::publishHeartbeat(MapModel& map) {
   map_publisher_->publishHeartbeat(map.options().frame_id);
 }
 
+// Less than passed by a clock that was put forward: in that time nothing could have been seen again.
 void ProjectedMapNode::decay(MapModel& map) {
   const ros::Time now = ros::Time::now();
   const double passed = now.toSec() - decayed_until_.toSec();
   if (passed >= 0.0 && passed < kDecayPeriod) return;
   if (map.options().octree.decay_time > 0.0 && passed > 0.0 && !decayed_until_.isZero())
-    map.decay(passed);
+    map.decay(std::min(passed, std::max(kLongestDecay, 2.0 / map.options().publish_rate)));
   decayed_until_ = now;
 }
 

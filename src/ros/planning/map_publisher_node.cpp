@@ -94,10 +94,10 @@ void MapPublisherNode::publishOnceThereIsTime() {
     ROS_WARN_COND(seldom.isDue(), "use_sim_time is set and no /clock has come yet: waiting for it");
     return;
   }
-  timer_.stop();
   message_ = occupancyToMessage(map_, frameName(options_.frame_id), ros::Time::now());
   map_publisher_.publish(message_);
   metadata_publisher_.publish(message_.info);
+  timer_.stop();  // at last: where there was no memory for all of it, it is tried again
   ROS_INFO_STREAM("Published " << options_.filename << ": " << map_.width() << "x" << map_.height()
                                << " cells of " << map_.geometry().resolution() << " m on "
                                << map_publisher_.getTopic());

@@ -70,9 +70,7 @@ FUZZ_TARGET(vehicle_config_message, seedsOfVehicleConfigs) {
   reconfigure<nodes::GoToPoseOptions>(*message, nodes::checkGoToPoseOptions);
   reconfigure<nodes::VehicleLocalizerOptions>(*message, nodes::checkVehicleLocalizerOptions);
   reconfigure<nodes::MarkerLocalizerOptions>(*message, nodes::checkMarkerLocalizerOptions);
-  reconfigure<nodes::AdapterOptions>(*message, [](const nodes::AdapterOptions& options) {
-    planning::checkCostPlannerOptions(options.planner);
-  });
+  reconfigure<nodes::AdapterOptions>(*message, nodes::checkAdapterOptions);
 }
 
 }  // namespace

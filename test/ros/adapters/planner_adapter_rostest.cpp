@@ -8,10 +8,15 @@
 #include <rosgraph_msgs/Log.h>
 
 #include <atomic>
+#include <cctype>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 #include <thread>
 
+#include "memory/failing_allocation.h"
 #include "ros/support/latest.h"
 #include "support/error_text.h"
 
@@ -140,6 +145,93 @@ TEST(PlannerAdapter, ReadsParametersAndWhoAsksNamesTheTolerance) {
 TEST(PlannerAdapter, AParameterThatCannotBeUsedIsNamed) {
   EXPECT_EQ(test::errorText([] { PlannerAdapter adapter(ros::NodeHandle("/refused"), "map"); }),
             "/refused/inflation_weight must be an integer, got the string many");
+}
+
+// Text that a terminal obeys, or of a megabyte, went into the log and into the answer, which a client sees.
+TEST(PlannerAdapter, NamesOfFramesThatAreNoneAreNotRepeated) {
+  Site site;
+  PlannerAdapter adapter(ros::NodeHandle("/plain"), "map");
+  for (const std::string& frame : {std::string("a\x1b[2J"), std::string(1000000, 'a')})
+    for (const bool of_start : {true, false}) {
+      const auto answer = adapter.makePlan(poseAt(1, 1, of_start ? frame : "map"),
+                                           poseAt(9, 1, of_start ? "map" : frame), {}, site.give());
+      EXPECT_EQ(answer.status, Status::INVALID_REQUEST);
+      EXPECT_EQ(
+          answer.message.find(of_start ? "start: the name of a frame" : "goal: the name of a"), 0U);
+      EXPECT_LT(answer.message.size(), 200U);
+      for (const char c : answer.message) EXPECT_FALSE(std::iscntrl(static_cast<unsigned char>(c)));
+    }
+}
+
+// A failure whose sentence was another one each time was logged each time.
+TEST(PlannerAdapter, LogsFailuresOnceInASecondAtMost) {
+  const test::Latest<rosgraph_msgs::Log> log(ros::NodeHandle(), "/rosout");
+  ASSERT_TRUE(test::waitFor([&] { return log.connected(); }));
+  Site site;
+  PlannerAdapter adapter(ros::NodeHandle("/plain"), "map");
+  const auto ask = [&](const std::string& frame) {
+    adapter.makePlan(poseAt(1, 1, frame), poseAt(9, 1), {}, site.give());
+  };
+  const auto lines = [&](const std::string& frame) {
+    std::size_t count = 0;
+    for (const rosgraph_msgs::Log& line : log.all())
+      count += line.msg.find("the start is in frame '" + frame) != std::string::npos ? 1 : 0;
+    return count;
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 100; ++i) ask("stranger_" + std::to_string(i));
+  EXPECT_TRUE(test::waitFor([&] {  // what is wrong later is told, too
+    ask("stranger_later");
+    return lines("stranger_later") > 0;
+  }));
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+  EXPECT_LE(static_cast<double>(lines("stranger_")), 2.0 + passed.count());
+}
+
+// What was seen before: what failed after the search was thrown on, into the thread of move_base that plans, which ended
+// move_base with the velocity that it had sent.
+TEST(PlannerAdapter, AnswersWhateverAllocationFails) {
+  Site site;
+  PlannerAdapter adapter(ros::NodeHandle("/plain"), "map");
+  bool happened = true;
+  int number = 1;
+  for (; happened; ++number) {
+    std::optional<test::FailingAllocation> fails;
+    PlannerAdapter::Answer answer;
+    std::string thrown;
+    try {
+      answer = adapter.makePlan(poseAt(1, 1), poseAt(9, 1), {}, [&](CostPlanner& planner) {
+        site.give()(planner);
+        fails.emplace(number);
+      });
+    } catch (const std::exception& error) {
+      thrown = error.what();
+    }
+    happened = fails->happened();
+    fails.reset();
+    ASSERT_EQ(thrown, "") << "allocation " << number;
+    ASSERT_EQ(answer.found(), !answer.poses.empty()) << "allocation " << number;
+    ASSERT_TRUE(answer.found() || !answer.message.empty()) << "allocation " << number;
+  }
+  EXPECT_GT(number, 20) << "so many allocations failed in turn";
+  EXPECT_TRUE(adapter.makePlan(poseAt(1, 1), poseAt(9, 1), {}, site.give()).found());
+}
+
+// A plan of such poses takes hundreds of megabytes.
+TEST(PlannerAdapter, PosesAreNotAskedForCloserThanAMillimetre) {
+  const std::string refusal = "pose_spacing must be -1, 0, or at least 0.001 m, got 1e-09";
+  ros::param::set("/dense/pose_spacing", 1e-9);
+  EXPECT_EQ(test::errorText([] { PlannerAdapter adapter(ros::NodeHandle("/dense"), "map"); }),
+            refusal);
+  ros::param::set("/dense/pose_spacing", 0.001);
+  const PlannerAdapter adapter(ros::NodeHandle("/dense"), "map");
+  dynamic_reconfigure::Reconfigure request;
+  using dynamic_reconfigure::ConfigTools;
+  ConfigTools::appendParameter(request.request.config, "pose_spacing", 1e-9);
+  ASSERT_TRUE(ros::service::call("/dense/set_parameters", request));
+  double spacing = 0.0;
+  ASSERT_TRUE(ConfigTools::getParameter(request.response.config, "pose_spacing", spacing));
+  EXPECT_EQ(spacing, 0.001);
 }
 
 TEST(PlannerAdapter, CancelEndsWhatPlansAndNothingLater) {
