@@ -1,6 +1,7 @@
 #include "grid_path_planner/base/read_limits.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "base/available_memory.h"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMegabyte = 1000000;
 constexpr double kPatience = 60.0;  // seconds by the clock for each of processor time
+constexpr double kEndless = 1e8;    // s
 
 }  // namespace
 
@@ -24,6 +26,14 @@ ReadLimits::ReadLimits(const ReadOptions& options, StopToken stop)
 ReadLimits ReadLimits::ofProcessorTime(const ReadOptions& options) {
   ReadLimits limits(options);
   limits.clock_seconds_ *= kPatience;
+  return limits;
+}
+
+ReadLimits ReadLimits::none(StopToken stop) {
+  ReadLimits limits({}, std::move(stop));
+  limits.bytes_ = std::numeric_limits<std::size_t>::max();
+  limits.seconds_ = limits.clock_seconds_ = kEndless;
+  limits.none_ = true;
   return limits;
 }
 

@@ -12,6 +12,7 @@ namespace grid_path_planner::mapping {
 
 using base::decimalText;
 using base::InputError;
+using base::ReadLimits;
 using base::StopToken;
 using grid::OccupancyGrid;
 using grid::writeMapServerFile;
@@ -23,15 +24,13 @@ const ProjectedMapOptions& checked(const ProjectedMapOptions& options) {
   return options;
 }
 
-constexpr double kEndless = 1e6;  // s
-
 OctreeMap mapOf(const ProjectedMapOptions& options, const std::string& begin_with,
                 const StopToken& stop) {
   OctreeMap map(options.octree);
-  base::ReadOptions reading = options.reading;
-  if (!begin_with.empty()) reading.read_time_limit = kEndless;
-  const std::string& file = begin_with.empty() ? options.filename : begin_with;
-  if (!file.empty()) map.load(file, {reading, stop});
+  if (!begin_with.empty())
+    map.load(begin_with, ReadLimits::none(stop));
+  else if (!options.filename.empty())
+    map.load(options.filename, {options.reading, stop});
   return map;
 }
 

@@ -40,5 +40,25 @@ TEST(ReadLimits, ProcessorTimeIsNotTakenByWaiting) {
   EXPECT_EQ(test::errorText([&] { limits.goOn("w.sdf"); }), "");
 }
 
+// What a node has kept for itself is as good as before where there is no memory for it; of a stranger's file it is said
+// that it cannot be read.
+TEST(ReadLimits, WithoutLimitsWantOfMemoryIsNoFaultOfTheFile) {
+  const auto read = [](ReadLimits& limits) {
+    limits.take("kept.ot", std::size_t{1} << 60);
+    throw std::bad_alloc();
+  };
+  EXPECT_THROW(readWithin("kept.ot", ReadLimits::none({}), read), std::bad_alloc);
+  EXPECT_THROW(readWithin("kept.ot", ReadLimits(), [](ReadLimits&) { throw std::bad_alloc(); }),
+               InputError);
+}
+
+TEST(ReadLimits, WithoutLimitsAStopEndsTheReading) {
+  StopSource stop;
+  const ReadLimits limits = ReadLimits::none(stop.token());
+  limits.goOn("kept.ot");
+  stop.cancel();
+  EXPECT_THROW(limits.goOn("kept.ot"), InputError);
+}
+
 }  // namespace
 }  // namespace grid_path_planner::base

@@ -1,5 +1,6 @@
 // A map that was kept for a restart is read to its end: on a machine with other work that took longer
-// than read_time_limit, the map was called lost, and a node that was killed began with an empty world.
+// than read_time_limit, or a map that takes more memory than read_memory_limit, the map was called lost, and a node that
+// was killed began with an empty world.
 #include "grid_path_planner/mapping/map_model.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ std::string writeLargeMap(const test::TemporaryFolder& folder, const ProjectedMa
   return file;
 }
 
-TEST(MapModel, BeginsWithAKeptMapHoweverLongThatTakes) {
+TEST(MapModel, BeginsWithAKeptMapWhateverThatTakes) {
   const test::TemporaryFolder folder;
   ProjectedMapOptions options;
   const std::string file = writeLargeMap(folder, options);
@@ -34,6 +35,10 @@ TEST(MapModel, BeginsWithAKeptMapHoweverLongThatTakes) {
   EXPECT_GT(MapModel(options, file).map().tree().size(), 100000U);
   options.filename = file;
   EXPECT_TRUE(test::contains(test::errorText([&] { MapModel{options}; }), "read_time_limit"));
+  options.reading = {};
+  options.reading.read_memory_limit = 1;
+  EXPECT_GT(MapModel(options, file).map().tree().size(), 100000U);
+  EXPECT_TRUE(test::contains(test::errorText([&] { MapModel{options}; }), "read_memory_limit"));
 }
 
 // dynamic_reconfigure sends every parameter with every request, the resolution as it was at the start: after a

@@ -52,6 +52,11 @@ class ReadLimits {
   // ends a process that sleeps.
   static ReadLimits ofProcessorTime(const ReadOptions& options = {});
 
+  // None but `stop`: for what this package has kept for itself, which is lost where it is refused. Memory that the
+  // system does not give is std::bad_alloc then, since the file is as good as before.
+  static ReadLimits none(StopToken stop);
+  bool isNone() const { return none_; }
+
   // The time runs from the first of these calls on; later ones change nothing.
   void start();
 
@@ -82,6 +87,7 @@ class ReadLimits {
   std::size_t bytes_;
   std::size_t taken_ = 0;
   double seconds_, clock_seconds_;
+  bool none_ = false;
   StopToken stop_;
   std::optional<Clock::time_point> end_;
 };
@@ -107,13 +113,14 @@ class ReadPoll {
 };
 
 // What `read` makes of the file within `limits`, whose time runs from here. Memory that the system does
-// not give, within the limits or not, is an InputError too.
+// not give, within the limits or not, is an InputError too, but without limits.
 template <class Read>
 auto readWithin(const std::string& file, ReadLimits limits, const Read& read) {
   limits.start();
   try {
     return read(limits);
   } catch (const std::bad_alloc&) {
+    if (limits.isNone()) throw;
     throw InputError(file, "cannot be read: there is not enough memory");
   }
 }

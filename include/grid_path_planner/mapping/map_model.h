@@ -26,7 +26,7 @@ class MapModel {
  public:
   // Throws InputError for options and for a file that cannot be used. The resolution of a file
   // replaces that of the options. `begin_with`, where it is not empty, is loaded instead of
-  // options.filename, however long that takes. `stop` ends a loading.
+  // options.filename, whatever that takes: without the memory for it, std::bad_alloc. `stop` ends a loading.
   explicit MapModel(const ProjectedMapOptions& options, const std::string& begin_with = "",
                     const base::StopToken& stop = {});
 

@@ -59,7 +59,9 @@ std::optional<KnownHeading> headingAfterStep(const std::optional<KnownHeading>& 
 }
 
 KeptHeading::KeptHeading(const std::string& folder, const std::string& node)
-    : folder_(folder), file_(folder + "/" + keptFileName(node, ".heading")), run_(runId()) {}
+    : run_(runId()), folder_(folder), file_(folder + "/" + keptFileName(node, run_, ".heading")) {
+  removeOldKeptFiles(file_);
+}
 
 std::optional<KnownHeading> KeptHeading::begin() const {
   if (run_.empty()) return {};

@@ -50,8 +50,8 @@ class KeptHeading {
  private:
   void write(const std::string& line) const;
 
-  std::string folder_, file_;
   std::string run_;  // "": unknown, then nothing is written
+  std::string folder_, file_;
   ros::SteadyTime kept_;
   base::TaskQueue writer_{
       [](const std::string& error) { tellGivenUp("Keeping the heading", error); }};

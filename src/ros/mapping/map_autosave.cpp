@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/current_error.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
@@ -16,6 +17,7 @@
 
 namespace grid_path_planner::nodes {
 
+using base::currentErrorText;
 using base::decimalText;
 using base::InputError;
 using base::RegularFile;
@@ -28,26 +30,23 @@ using mapping::ProjectedMapOptions;
 namespace {
 
 constexpr char kSlot[] = "autosave";
+constexpr char kNoRun[] = "the master has no /run_id, as roscore sets it";
+constexpr double kAnswers = 3.0;  // s since the master's last answer: it is worth a question
 constexpr std::size_t kBeginning = 4096;  // bytes, that hold the lines before the octree
-
-std::string firstRunId() {
-  const std::string run = runId();
-  if (!run.empty()) return run;
-  ROS_WARN(
-      "The master has no /run_id, as roscore sets it: the map is not kept for a node that starts "
-      "again");
-  return "";
-}
 
 }  // namespace
 
 MapAutosave::MapAutosave(const std::string& folder, const std::string& node,
                          const ProjectedMapOptions& options)
-    : folder_(folder),
-      file_(folder + "/" + keptFileName(node, ".ot")),
-      run_(firstRunId()),
-      frame_id_(options.frame_id) {
+    : folder_(folder), node_(node), run_(runId()), frame_id_(options.frame_id) {
+  if (run_.empty()) noteProblem(kNoRun);
+  nameFile();
+  removeOldKeptFiles(file_);
   setOptions(options);
+}
+
+void MapAutosave::nameFile() {
+  file_ = folder_ + "/" + keptFileName(node_, run_, ".ot");
 }
 
 void MapAutosave::setOptions(const ProjectedMapOptions& options) {
@@ -57,14 +56,16 @@ void MapAutosave::setOptions(const ProjectedMapOptions& options) {
 }
 
 // A roscore that was restarted has another run, under which a node that is killed now starts again. It has a
-// /run_id a moment after it answers.
+// /run_id a moment after it answers; the question may have failed before, too.
 void MapAutosave::followMaster() {
   const unsigned restarts = master_->restarts();
-  if (restarts == restarts_) return;
+  if ((restarts == restarts_ && !run_.empty()) || master_->silence() > kAnswers) return;
   const std::string run = runId();
   if (run.empty()) return;
   restarts_ = restarts;
-  if (std::exchange(run_, run) != run) saved_revision_ = 0;
+  if (std::exchange(run_, run) == run) return;
+  replaced_ = file_;
+  nameFile();
 }
 
 // A file has its own resolution.
@@ -86,9 +87,9 @@ std::optional<KeptMap> MapAutosave::kept() const {
 std::string MapAutosave::begin() const {
   if (!std::filesystem::exists(file_)) return "";
   if (!kept()) {
-    ROS_INFO_STREAM(
-        "The map that was kept in "
-        << file_ << " is of another run, frame, resolution or octree file: it is not begun with");
+    ROS_INFO_STREAM("The map that was kept in "
+                    << file_
+                    << " is of another frame, resolution or octree file: it is not begun with");
     return "";
   }
   ROS_WARN_STREAM("Begins with the map that was kept in "
@@ -104,16 +105,37 @@ ros::Time MapAutosave::newestCloud() const {
 
 void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud, When when) {
   followMaster();
-  const bool failed = !state().problem.empty();
-  if (run_.empty() || (map.revision() == saved_revision_ && !failed)) return;
+  if (isInFile(map)) return;
   noteUnsaved();
+  if (run_.empty()) return noteProblem(kNoRun);
   if (when == When::IF_DUE && !share_.due()) return;
   std::string text;
   share_.take([&] { text = map.map().fileText(commentsOf(marker(), newest_cloud)); });
   saved_revision_ = map.revision();
-  writer_.post([this, newest_cloud, text = std::move(text), work = std::make_shared<LastWork>()](
-                   const StopSource&) { write(text, newest_cloud); },
-               kSlot);
+  writer_.post(
+      [this, newest_cloud, file = file_, replaced = replaced_, text = std::move(text),
+       work = std::make_shared<LastWork>()](const StopSource&) {
+        write(file, text, newest_cloud);
+        std::error_code ignored;  // then it is an old one of another run
+        if (!replaced.empty() && state().problem.empty())
+          std::filesystem::remove(replaced, ignored);
+      },
+      kSlot);
+}
+
+// As far as what was told to the writer is.
+bool MapAutosave::isInFile(const MapModel& map) const {
+  std::error_code ignored;  // then it is not there
+  return map.revision() == saved_revision_ && state().problem.empty() &&
+         std::filesystem::exists(file_, ignored);
+}
+
+void MapAutosave::noteProblem(const std::string& problem) {
+  static LogThrottle seldom(10.0);
+  ROS_WARN_STREAM_COND(seldom.isDue(),
+                       "The map cannot be kept for a node that starts again: " << problem);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  state_.problem = problem;
 }
 
 void MapAutosave::noteUnsaved() {
@@ -121,35 +143,33 @@ void MapAutosave::noteUnsaved() {
   if (!unsaved_since_) unsaved_since_ = Clock::now();
 }
 
-void MapAutosave::write(const std::string& text, const ros::Time& newest_cloud) {
-  State state;
-  state.newest_cloud = newest_cloud;
+void MapAutosave::write(const std::string& file, const std::string& text,
+                        const ros::Time& newest_cloud) {
+  std::string problem;
   try {
     std::error_code ignored;  // shows in the writing
     std::filesystem::create_directories(folder_, ignored);
-    writeFileAtomically(file_, text);
-  } catch (const InputError& error) {
-    state.problem = error.what();
-    static LogThrottle seldom(10.0);
-    ROS_WARN_STREAM_COND(seldom.isDue(),
-                         "The map cannot be kept for a node that starts again: " << state.problem);
+    writeFileAtomically(file, text);
+  } catch (...) {
+    problem = currentErrorText();
+    noteProblem(problem);
   }
   std::lock_guard<std::mutex> lock(mutex_);
-  if (state.problem.empty()) {
-    written_ = Clock::now();
-    unsaved_since_.reset();  // what came meanwhile is noted again soon
-  }
-  state_ = state;
+  state_.newest_cloud = newest_cloud;
+  if (!problem.empty()) return;
+  state_.problem.clear();
+  written_ = Clock::now();
+  unsaved_since_.reset();  // what came meanwhile is noted again soon
 }
 
 void MapAutosave::remove() {
   writer_
       .post(
-          [this](const StopSource&) {
+          [this, file = file_](const StopSource&) {
             std::error_code error;
-            std::filesystem::remove(file_, error);
+            std::filesystem::remove(file, error);
             if (error)
-              ROS_ERROR_STREAM(file_
+              ROS_ERROR_STREAM(file
                                << " cannot be removed, a node that starts again begins with it: "
                                << error.message());
             std::lock_guard<std::mutex> lock(mutex_);

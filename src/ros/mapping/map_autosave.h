@@ -8,9 +8,8 @@
 // The file is an octree (.ot) below the folder, whose first lines name the run (the roscore's
 // /run_id; of a roscore that was restarted the new one), the frame, and the octree file that the node began
 // with or, where there was none, the resolution that was asked for; one of other ones is
-// not begun with. Its name holds the node's
-// name and the master's address, so that no two nodes write the same one, and begins with a dot, so
-// that no service can be asked to write it. The tree becomes text in the mapping thread, which takes
+// not begun with. Its name (kept_file.h) holds the node's, the master's address and the run, so that no two nodes write the
+// same one, and begins with a dot, so that no service can be asked to write it. A file that is gone is written again. The tree becomes text in the mapping thread, which takes
 // at most a fifth of its processor time; it is written by a thread of its own, beside, synced and renamed. What
 // cannot be written is warned of and tried again.
 #pragma once
@@ -69,11 +68,15 @@ class MapAutosave {
   std::string marker() const;
   void noteUnsaved();
   std::optional<KeptMap> kept() const;
-  void write(const std::string& text, const ros::Time& newest_cloud);
+  void nameFile();
+  bool isInFile(const mapping::MapModel& map) const;
+  void noteProblem(const std::string& problem);
+  void write(const std::string& file, const std::string& text, const ros::Time& newest_cloud);
 
-  std::string folder_;
-  std::string file_;  // its path
-  std::string run_;   // "": unknown, then nothing is written
+  const std::string folder_, node_;
+  std::string run_;       // "": unknown, then nothing is written
+  std::string file_;      // its path, of the run
+  std::string replaced_;  // of the run before, gone once file_ is written
   std::string frame_id_;
   std::string octree_;  // in one line
   double resolution_ = 0.0;

@@ -1,7 +1,9 @@
 #include "ros/mapping/mapping_diagnostics.h"
-#include "ros/common/scheduling/guarded_timer.h"
 
 #include <string>
+
+#include "base/seconds_since.h"
+#include "ros/common/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 
@@ -12,6 +14,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr int kRestAfterCounting = 50;  // times what counting the memory took
+constexpr double kCameraSilence = 5.0;  // s without a cloud
 
 std::uint64_t sumOf(const std::map<std::string, std::uint64_t>& dropped) {
   std::uint64_t sum = 0;
@@ -23,10 +26,12 @@ std::uint64_t sumOf(const std::map<std::string, std::uint64_t>& dropped) {
 
 MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
                                        const CloudQueue& queue, MappingThread& thread,
+                                       const ProjectedMapPublisher& map,
                                        const OctreePublisher& octree, const MapAutosave* autosave,
                                        double autosave_period)
     : queue_(queue),
       thread_(thread),
+      map_(map),
       octree_(octree),
       autosave_(autosave),
       autosave_period_(autosave_period),
@@ -60,16 +65,20 @@ void MappingDiagnostics::recordInsertion(const MapModel::Inserted& inserted) {
   full_ = inserted.map_is_full;
   all_insertions_ += inserted.seconds;
   ++insertions_;
+  inserted_ = Clock::now();
 }
 
 void MappingDiagnostics::reportClouds(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const CloudCounts counts = queue_.counts();
   const std::uint64_t dropped = sumOf(counts.dropped);
   std::lock_guard<std::mutex> lock(mutex_);
+  const double age = insertions_ == 0 ? -1.0 : base::secondsSince(inserted_);
   if (dropped > reported_drops_)
     status.summary(DiagnosticStatus::WARN, "clouds are being dropped");
   else if (counts.received == 0)
     status.summary(DiagnosticStatus::OK, "no cloud has come yet");
+  else if (age > kCameraSilence)
+    status.summary(DiagnosticStatus::WARN, "no cloud is mapped any more");
   else
     status.summary(DiagnosticStatus::OK, "clouds are mapped");
   reported_drops_ = dropped;
@@ -79,6 +88,7 @@ void MappingDiagnostics::reportClouds(diagnostic_updater::DiagnosticStatusWrappe
   status.add("dropped", dropped);
   for (const auto& [reason, count] : counts.dropped) status.add("dropped: " + reason, count);
   status.add("last_insertion_s", last_insertion_);
+  status.add("last_insertion_age_s", age);
   status.add("mean_insertion_s",
              insertions_ == 0 ? 0.0 : all_insertions_ / static_cast<double>(insertions_));
 }
@@ -86,7 +96,9 @@ void MappingDiagnostics::reportClouds(diagnostic_updater::DiagnosticStatusWrappe
 void MappingDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
   std::lock_guard<std::mutex> lock(mutex_);
   status.summary(DiagnosticStatus::OK, figures_.nodes == 0 ? "the map is empty" : "a map is there");
-  if (full_)
+  if (map_.owesMap())
+    status.summary(DiagnosticStatus::WARN, "projected_map cannot be made, or was not sent");
+  else if (full_)
     status.summary(DiagnosticStatus::WARN, "the map takes memory_limit: nothing new is added");
   else if (figures_.area_left_out > 0.0)
     status.summary(DiagnosticStatus::WARN, "projected_map leaves out a part of what was seen");

@@ -2,10 +2,11 @@
 // became of them, and the size of the map.
 //
 //   clouds: received, inserted, waiting, dropped (each with its reason), last_insertion_s,
-//           mean_insertion_s; a warning while clouds are dropped
+//           mean_insertion_s, last_insertion_age_s (below 0: none yet); a warning while clouds are dropped, and
+//           where none was mapped for 5 s of the wall clock since the first
 //   map:    nodes, bytes and projections (counted seldom where counting takes long), resolution,
 //           left_out_m2: what the 2-D map does not hold of the tree, for projection_max_cells, with a
-//           warning, tree_messages: how often the 3-D topics were built
+//           warning, as there is while projected_map cannot be made or sent, tree_messages: how often the 3-D topics were built
 //
 // autosave: age_s of the file that a node begins with when it starts again, below 0: none yet;
 // behind_s: since when there is something that is not in it; newest_cloud: the stamp of the newest cloud in it; a warning
@@ -26,15 +27,17 @@
 #include "ros/mapping/map_autosave.h"
 #include "ros/mapping/mapping_thread.h"
 #include "ros/mapping/octree_publisher.h"
+#include "ros/mapping/projected_map_publisher.h"
 
 namespace grid_path_planner::nodes {
 
 class MappingDiagnostics {
  public:
-  // `queue`, `thread`, `octree` and `autosave` outlive this; the last is null where there is none.
+  // All that is given by reference or pointer outlives this; `autosave` is null where there is none.
   MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, const CloudQueue& queue,
-                     MappingThread& thread, const OctreePublisher& octree,
-                     const MapAutosave* autosave, double autosave_period);
+                     MappingThread& thread, const ProjectedMapPublisher& map,
+                     const OctreePublisher& octree, const MapAutosave* autosave,
+                     double autosave_period);
   ~MappingDiagnostics() { timer_.stop(); }
 
   // Records an insertion. Thread-safe.
@@ -58,6 +61,7 @@ class MappingDiagnostics {
 
   const CloudQueue& queue_;
   MappingThread& thread_;
+  const ProjectedMapPublisher& map_;
   const OctreePublisher& octree_;
   const MapAutosave* autosave_;
   const double autosave_period_;  // s
@@ -67,6 +71,7 @@ class MappingDiagnostics {
   double last_insertion_ = 0.0;  // s
   double all_insertions_ = 0.0;  // s
   std::uint64_t insertions_ = 0;
+  Clock::time_point inserted_;
   std::uint64_t reported_drops_ = 0;
   Clock::time_point measure_not_before_;  // used in the mapping thread
   diagnostic_updater::Updater updater_;

@@ -23,10 +23,18 @@ ProjectedMapPublisher::ProjectedMapPublisher(ros::NodeHandle nh, bool latch,
 
 void ProjectedMapPublisher::publish(MapModel& map, const ros::Time& stamp) {
   if (!topic_.hasSubscribers()) return;
-  const bool owed = std::exchange(owes_map_, true);
-  send(map, stamp, owed);
+  try {
+    send(map, stamp, owes_map_);
+  } catch (...) {
+    owes_map_ = true;
+    throw;
+  }
   owes_map_ = false;
   newest_published_cloud_ = newest_cloud_;
+}
+
+void ProjectedMapPublisher::owe() {
+  if (topic_.hasSubscribers()) owes_map_ = true;
 }
 
 bool ProjectedMapPublisher::wholeMapIsWanted(const ProjectionChange& change,
@@ -65,7 +73,7 @@ void ProjectedMapPublisher::countCloud(const ros::Time& stamp, const ros::Time& 
 }
 
 void ProjectedMapPublisher::publishHeartbeat(const std::string& frame_id) {
-  topic_.sendHeartbeat(updateOf({}, frame_id, newest_published_cloud_));
+  if (!owes_map_) topic_.sendHeartbeat(updateOf({}, frame_id, newest_published_cloud_));
 }
 
 }  // namespace grid_path_planner::nodes

@@ -9,7 +9,8 @@
 //
 // A heartbeat is an update of 0x0 cells. It tells receivers that the mapping lives and up to when
 // the map holds what was seen: its stamp is that of the newest cloud in the map as published, 0
-// before the first.
+// before the first. While a map cannot be made or sent there is none, so that a driver holds: the map that it has
+// lacks what was seen since.
 //
 // Not guaranteed: a current map for a second subscriber inside of one process. roscpp gives it the
 // last whole map without a callback; with updates that map may be out of date.
@@ -17,6 +18,7 @@
 
 #include <ros/node_handle.h>
 
+#include <atomic>
 #include <functional>
 #include <string>
 
@@ -32,6 +34,10 @@ class ProjectedMapPublisher {
 
   // Publishes the changes since the last call, if there are subscribers. In the mapping thread.
   void publish(mapping::MapModel& map, const ros::Time& stamp);
+  // Instead, while the map cannot be made. In the mapping thread.
+  void owe();
+  // Since the last publication failed, or owe(). Thread-safe.
+  bool owesMap() const { return owes_map_; }
 
   // A cloud of this stamp is in the tree. Stamps of clouds may be any number: what lies after `now`
   // counts as `now`, and what was counted before ROS time jumped back is forgotten. In the mapping
@@ -39,7 +45,7 @@ class ProjectedMapPublisher {
   void countCloud(const ros::Time& stamp, const ros::Time& now);
   // Of the clouds counted. In the mapping thread.
   const ros::Time& newestCloud() const { return newest_cloud_; }
-  // In the mapping thread.
+  // None while a map is owed. In the mapping thread.
   void publishHeartbeat(const std::string& frame_id);
 
  private:
@@ -49,8 +55,8 @@ class ProjectedMapPublisher {
   // Once.
   void warnOfFloor(const grid::OccupancyGrid& grid, const mapping::ProjectedMapOptions& options);
 
-  bool sent_ = false;      // a whole map
-  bool owes_map_ = false;  // a whole one, since what was to be sent last was not
+  bool sent_ = false;                  // a whole map
+  std::atomic<bool> owes_map_{false};  // a whole one, since what was to be sent last was not
   bool warned_of_floor_ = false;
   ros::Time newest_cloud_;            // in the tree
   ros::Time newest_published_cloud_;  // in the map as it was published last

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
 #include <random>
 
 #include "ros/support/map_listeners.h"
@@ -35,6 +36,21 @@ class Publishing : public test::MappingTest {
         .waitFor(0,
                  [&](const map_msgs::OccupancyGridUpdate& update) {
                    return update.width == 0 && accept(update.header.stamp);
+                 })
+        .has_value();
+  }
+  static bool says(const diagnostic_msgs::DiagnosticArray& array, const std::string& about,
+                   int level, const std::string& text) {
+    return std::any_of(array.status.begin(), array.status.end(), [&](const auto& status) {
+      return status.name == "projected_map: " + about && status.level == level &&
+             status.message.find(text) != std::string::npos;
+    });
+  }
+  bool warns(const std::string& about, const std::string& text) const {
+    return diagnostics_
+        .waitFor(0,
+                 [&](const diagnostic_msgs::DiagnosticArray& array) {
+                   return says(array, about, diagnostic_msgs::DiagnosticStatus::WARN, text);
                  })
         .has_value();
   }
@@ -309,6 +325,39 @@ TEST_F(Publishing, TheBandFollowsTheVehiclesDepth) {
   EXPECT_TRUE(becomes(maps, 1.05, 0.05, 100));
   placeSensor(0.0, 0.0, 2.0, "base_link", ros::Time::now() + ros::Duration(0.1));
   EXPECT_TRUE(becomes(maps, 1.05, 0.05, -1));
+}
+
+// A driver went on by a map that lacked what was seen, since heartbeats said that the map was kept up.
+TEST_F(Publishing, NoHeartbeatSpeaksForAMapThatIsNotSent) {
+  startMapping(
+      {"_projection_reference:=vehicle", "_base_frame_id:=base_link", "_heartbeat_period:=0.05"});
+  const Maps maps(nh_, "projected_map");
+  const Updates updates(nh_, "projected_map_updates");
+  publish(wallAt(1.0F));
+  ASSERT_TRUE(insertsAll(1));
+  ASSERT_TRUE(warns("map", "cannot be made"));
+  const std::size_t reports = diagnostics_.count();
+  ASSERT_TRUE(diagnostics_.waitForMoreThan(reports + 2));  // what was sent before is there
+  const std::size_t before = updates.count();
+  ASSERT_TRUE(diagnostics_.waitForMoreThan(reports + 8));
+  EXPECT_EQ(updates.count(), before);
+  placeSensor(0.0, 0.0, 0.0, "base_link");
+  EXPECT_TRUE(becomes(maps, 1.05, 0.05, 100));
+  EXPECT_TRUE(updates.waitForMoreThan(before + 2));
+}
+
+// The camera had been dead for an hour, and every status was OK.
+TEST_F(Publishing, ACameraThatIsSilentIsAWarning) {
+  startMapping();
+  publish(wallAt(1.0F));
+  ASSERT_TRUE(warns("clouds", "no cloud is mapped any more"));
+  publish(wallAt(1.0F));
+  EXPECT_TRUE(test::waitFor([this] {
+    const auto arrays = diagnostics_.all();
+    return std::any_of(arrays.rbegin(), arrays.rbegin() + 3, [](const auto& array) {
+      return says(array, "clouds", diagnostic_msgs::DiagnosticStatus::OK, "clouds are mapped");
+    });
+  }));
 }
 
 TEST_F(Publishing, VoxelsAreShownInsideOfTheOccupancyBand) {

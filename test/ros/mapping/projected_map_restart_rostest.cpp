@@ -103,6 +103,31 @@ TEST_F(Restart, WhatIsMappedBeforeAnOrderlyEndIsKept) {
   EXPECT_EQ(valueAt(*firstMap(maps), 1.55, 0.05), 100);
 }
 
+// It was refused as any file that takes more memory to be read than is allowed, called lost, and written over.
+TEST_F(Restart, AMapIsReadWhateverReadingTakes) {
+  start({"_resolution:=0.01"});
+  const Maps maps(nh_, "projected_map");
+  last_stamp_ = ros::Time::now();
+  clouds_.publish(cloudOf(wallAt(1.505F), "map", last_stamp_));
+  ASSERT_TRUE(becomes(maps, 1.505, 0.025, 100));
+  ASSERT_TRUE(isKept());
+  kill();
+  start({"_resolution:=0.01", "_read_memory_limit:=1"});
+  EXPECT_TRUE(node_->says("Begins with the map that was kept in"));
+  const Maps after(nh_, "projected_map");
+  ASSERT_TRUE(firstMap(after));
+  expectNothingErased(maps.all().back(), *firstMap(after));
+}
+
+TEST_F(Restart, AFileThatIsGoneIsWrittenAgain) {
+  start();
+  mapWall(1.5F);
+  ASSERT_TRUE(isKept());
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path(".")))
+    std::filesystem::remove(entry.path());
+  EXPECT_TRUE(test::waitFor([this] { return !std::filesystem::is_empty(folder_.path(".")); }));
+}
+
 // Whoever switches it off has no disk for it, or saves maps when it matters.
 TEST_F(Restart, WithoutAutosaveNothingIsWrittenAndItBeginsEmpty) {
   for (const int signal : {SIGKILL, SIGINT}) {
@@ -154,7 +179,7 @@ TEST_F(Restart, WithAnotherOctreeFileItBeginsWithThat) {
   ASSERT_TRUE(firstMap(kept));
   EXPECT_EQ(valueAt(*firstMap(kept), 2.05, 0.05), 100);
   start({two});
-  EXPECT_TRUE(node_->says("is of another run, frame, resolution or octree file"));
+  EXPECT_TRUE(node_->says("is of another frame, resolution or octree file"));
   const Maps fresh(nh_, "projected_map");
   ASSERT_TRUE(firstMap(fresh));
   EXPECT_EQ(valueAt(*firstMap(fresh), 1.55, 0.05), 100) << "as in the file";
@@ -167,7 +192,7 @@ TEST_F(Restart, WithAnotherResolutionItBeginsEmpty) {
   mapWall(1.5F);
   ASSERT_TRUE(isKept());
   start({"_resolution:=0.05"});
-  EXPECT_TRUE(node_->says("is of another run, frame, resolution or octree file"));
+  EXPECT_TRUE(node_->says("is of another frame, resolution or octree file"));
   const Maps maps(nh_, "projected_map");
   ASSERT_TRUE(firstMap(maps));
   EXPECT_TRUE(isEmpty(*firstMap(maps)));
@@ -230,24 +255,35 @@ class RunOfMaster : public ::testing::Test {
 
   void setRun(const std::string& run) {
     using XmlRpc::XmlRpcValue;
-    ASSERT_TRUE(test::waitFor([&] {
-      return callXmlRpc(master_.uri(), "setParam",
-                        {XmlRpcValue("/test"), XmlRpcValue("/run_id"), XmlRpcValue(run)}, 1.0)
-          .has_value();
-    }));
+    tellMaster("setParam", {XmlRpcValue("/test"), XmlRpcValue("/run_id"), XmlRpcValue(run)});
+  }
+  void tellMaster(const std::string& method, const std::vector<XmlRpc::XmlRpcValue>& what) {
+    ASSERT_TRUE(
+        test::waitFor([&] { return callXmlRpc(master_.uri(), method, what, 1.0).has_value(); }));
   }
   std::unique_ptr<Process> started() {
     return master_.start("projected_map",
                          {"_autosave_period:=0.2", "--save-folder", folder_.path(".")});
   }
-  // Whether a kept map becomes one of this run.
+  // The kept map of a run; empty where there is none.
+  std::filesystem::path keptOf(const std::string& run) const {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path(".")))
+      if (test::contentOf(entry.path().string()).find("run " + run + ",") != std::string::npos)
+        return entry.path();
+    return {};
+  }
   bool becomesOf(const std::string& run) const {
-    return test::waitFor([&] {
-      for (const auto& entry : std::filesystem::directory_iterator(folder_.path(".")))
-        if (test::contentOf(entry.path().string()).find("run " + run + ",") != std::string::npos)
-          return true;
-      return false;
-    });
+    return test::waitFor([&] { return !keptOf(run).empty(); });
+  }
+  void kill(Process& node) const {
+    node.signal(SIGKILL);
+    ASSERT_TRUE(node.waitForExit());
+  }
+  // As a node would have written it `hours` ago.
+  void writeKept(const std::string& name, int hours) const {
+    const std::string file = folder_.write(name, "# Octomap OcTree file");
+    std::filesystem::last_write_time(
+        file, std::filesystem::file_time_type::clock::now() - std::chrono::hours(hours));
   }
 
   const test::TemporaryFolder folder_;
@@ -262,10 +298,50 @@ TEST_F(RunOfMaster, OfARosCoreThatWasRestartedIsThatOfTheKeptMap) {
   master_.run();
   setRun("second");
   ASSERT_TRUE(becomesOf("second"));
-  node->signal(SIGKILL);
-  ASSERT_TRUE(node->waitForExit());
+  EXPECT_TRUE(test::waitFor([this] { return keptOf("first").empty(); }));
+  kill(*node);
   node = started();
   EXPECT_TRUE(node->says("Begins with the map that was kept in"));
+}
+
+// Two masters of one address, in two network namespaces or containers that share a folder: each node wrote over the
+// other's map.
+TEST_F(RunOfMaster, TwoMastersOfOneAddressHaveAMapEach) {
+  auto node = started();
+  ASSERT_TRUE(becomesOf("first"));
+  kill(*node);
+  setRun("second");
+  node = started();
+  ASSERT_TRUE(becomesOf("second"));
+  kill(*node);
+  setRun("first");
+  node = started();
+  EXPECT_TRUE(node->says("Begins with the map that was kept in"));
+}
+
+// The question for it was asked once: where it failed, the diagnostics said for ever that the map was kept.
+TEST_F(RunOfMaster, IsAskedForUntilThereIsOne) {
+  tellMaster("deleteParam", {XmlRpc::XmlRpcValue("/test"), XmlRpc::XmlRpcValue("/run_id")});
+  const auto node = started();
+  EXPECT_TRUE(node->says("cannot be kept for a node that starts again: the master has no /run_id"));
+  setRun("first");
+  EXPECT_TRUE(becomesOf("first"));
+}
+
+TEST_F(RunOfMaster, OfLongAgoIsForgotten) {
+  auto node = started();
+  ASSERT_TRUE(becomesOf("first"));
+  kill(*node);
+  const std::string name = keptOf("first").filename().string();
+  const std::string before = name.substr(0, name.rfind("first"));
+  writeKept(before + "long-ago.ot", 2);
+  writeKept(before + "now.ot", 0);
+  writeKept(".other" + before + "long-ago.ot", 2);
+  node = started();
+  EXPECT_TRUE(node->says("Begins with the map that was kept in"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path(before + "long-ago.ot")));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path(before + "now.ot")));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path(".other" + before + "long-ago.ot")));
 }
 
 }  // namespace
