@@ -16,6 +16,7 @@ constexpr double kDiagnosed = 1.0;  // s, wall time
 void LocalPlannerNode::startDiagnostics() {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("flight", this, &LocalPlannerNode::diagnose);
+  diagnostics_.add("other nodes", &others_, &OtherCommanders::report);
   // force_update: the updater's own clock is ROS time, which may jump back.
   diagnostics_timer_ = guardedTimer(nh_, kDiagnosed, [this] { diagnostics_.force_update(); });
 }

@@ -31,7 +31,7 @@
 // that cannot be flown is refused with an error, one from before the node's start with a warning, and the
 // present flight goes on; goals without a stamp are new. ROS time that goes back cancels the flight and
 // forgets what was seen. The node does not start where another publishes cmd_vel (but a joystick, and with
-// ~share_cmd_vel) or offers the action.
+// ~share_cmd_vel) or offers the action; one that comes later is told in /diagnostics.
 //
 // The queue's thread unpacks clouds, plans, publishes what is seen and writes the logs; another commands
 // (flight_commander.h) and stops the vehicle while the first is late, however long that takes. Files are read, maps
@@ -68,6 +68,7 @@
 #include "ros/common/incoming/bounded_subscription.h"
 #include "ros/common/incoming/given_goals.h"
 #include "ros/common/master/command_claim.h"
+#include "ros/common/master/other_commanders.h"
 #include "ros/common/node_files.h"
 
 namespace grid_path_planner {
@@ -126,6 +127,7 @@ class LocalPlannerNode {
   ros::NodeHandle nh_;
   LocalPlannerOptions options_;
   const CommandClaim commands_;
+  OtherCommanders others_{commands_};
   FrameTransforms transforms_;
   ClockWatch clock_;
   MapPlanner map_;

@@ -4,7 +4,6 @@
 
 namespace grid_path_planner::nodes {
 
-using base::StopSource;
 using diagnostic_msgs::DiagnosticStatus;
 using following::FollowState;
 
@@ -40,18 +39,8 @@ void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& 
 }
 
 void NavigatePathNode::diagnoseOthers(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  if (other_)
-    status.summary(DiagnosticStatus::ERROR, other_->sentence + " too");
-  else
-    status.summary(DiagnosticStatus::OK, "nobody else commands the vehicle");
+  others_.report(status);
   diagnoseMaster(master_->silence(), options_.master_timeout, status);
-  reader_->post(
-      [this](const StopSource&) {
-        const auto found = commands_.other();
-        auto other = found ? std::make_shared<const OtherCommander>(*found) : nullptr;
-        callLater([this, other] { other_ = other; });
-      },
-      "others");
 }
 
 }  // namespace grid_path_planner::nodes

@@ -49,6 +49,7 @@
 #include "ros/common/incoming/given_goals.h"
 #include "ros/common/master/command_claim.h"
 #include "ros/common/master/master_watch.h"
+#include "ros/common/master/other_commanders.h"
 #include "ros/common/node_files.h"
 #include "ros/driving/drive_loop.h"
 #include "ros/driving/map_watch.h"
@@ -116,6 +117,7 @@ class NavigatePathNode {
   NavigatePathOptions options_;
   path::Path file_;  // of config_filename
   const CommandClaim commands_;
+  OtherCommanders others_{commands_};
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   FrameTransforms transforms_;
   ClockWatch clock_;
@@ -140,8 +142,7 @@ class NavigatePathNode {
   ros::SteadyTimer feedback_timer_;
   ros::SteadyTimer diagnostics_timer_;
   std::unique_ptr<Reconfigurable<NavigatePathConfig, NavigatePathOptions>> reconfigurable_;
-  std::unique_ptr<base::TaskQueue> reader_;      // of waypoint files, and of the master's state
-  std::shared_ptr<const OtherCommander> other_;  // another commander that was found since the start
+  std::unique_ptr<base::TaskQueue> reader_;  // of waypoint files
 };
 
 }  // namespace grid_path_planner::nodes

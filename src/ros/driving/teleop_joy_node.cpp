@@ -46,6 +46,7 @@ TeleopJoyNode::TeleopJoyNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
   reconfigurable_ = std::make_unique<Reconfigurable<TeleopJoyConfig, TeleopJoyOptions>>(
       private_nh, options_, [this](const TeleopJoyOptions& options) { use(options); });
   diagnostics_.add("joystick", this, &TeleopJoyNode::diagnose);
+  diagnostics_.add("other nodes", &others_, &OtherCommanders::report);
   diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
 }
 

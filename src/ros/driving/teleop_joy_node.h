@@ -11,7 +11,7 @@
 // when the deadman button is released, when no message has come for joy_timeout of the wall clock, on
 // a message that cannot be used, and when the node ends; after that nothing is published, so that
 // navigate_path may command the vehicle. ROS time has no effect. The node does not start where
-// another joystick's, or one that does not yield, publishes cmd_vel. Velocities come from JoystickLoop,
+// another joystick's, or one that does not yield, publishes cmd_vel; one that comes later is told in /diagnostics. Velocities come from JoystickLoop,
 // whose thread waits for nothing; this class logs. Not guaranteed: a zero after SIGKILL.
 #pragma once
 
@@ -24,6 +24,7 @@
 #include <string>
 
 #include "ros/common/master/command_claim.h"
+#include "ros/common/master/other_commanders.h"
 #include "ros/driving/joystick_loop.h"
 #include "ros/driving/teleop_joy_options.h"
 
@@ -57,6 +58,7 @@ class TeleopJoyNode {
   ros::NodeHandle nh_;
   TeleopJoyOptions options_;
   const CommandClaim commands_;
+  OtherCommanders others_{commands_};
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer diagnostics_timer_;
   // That wait for the log; shared with them, since they may outlive a node that does not start.

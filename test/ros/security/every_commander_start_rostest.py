@@ -15,6 +15,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import rosgraph
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 import node_probes as probes
 from commanders import COMMANDERS, DEADLINE, VELOCITIES, CommanderTest, RunningCommander
@@ -158,6 +159,30 @@ class EveryCommanderStart(CommanderTest):
             return sum(at < node.commands[0][0] for at in slow.asked_at) > 4
         finally:
             slow.end()
+
+    def test_one_that_comes_later_is_told(self):
+        """Of this package or not; only navigate_path looked for it."""
+        told = []
+        listener = rospy.Subscriber("/diagnostics", DiagnosticArray, lambda message: told.extend(message.status))
+        self.addCleanup(listener.unregister)
+        for name in COMMANDERS:
+            node = self.first(name, "process")
+
+            def says(level, words):
+                del told[:]
+                return probes.until(node, lambda: any(
+                    status.name == node.full_name()[1:] + ": other nodes" and status.level == level and words in status.message
+                    for status in list(told)), session_seconds() + DEADLINE)
+            self.assertTrue(says(DiagnosticStatus.OK, "nobody else"), str(node))
+            topic = node.resolved(next(topic for topic, kind in NODES[name].outputs.items() if kind == VELOCITIES[0]))
+            stranger = subprocess.Popen(["rostopic", "pub", topic, VELOCITIES[0], "{}"], stdout=node.log, stderr=subprocess.STDOUT)
+            node.processes.append(stranger)
+            self.assertTrue(says(DiagnosticStatus.ERROR, "publishes %s too" % topic), str(node))
+            node.processes.remove(stranger)
+            stranger.terminate()
+            stranger.wait(DEADLINE)
+            self.assertTrue(says(DiagnosticStatus.OK, "nobody else"), str(node))
+            node.end(signal.SIGKILL)
 
     def test_the_master_forgets_what_was_killed(self):
         """By RunningNode.end(): its ports may be those of other tests' nodes a moment later."""
