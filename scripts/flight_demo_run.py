@@ -36,7 +36,7 @@ class Tour:
 
     def send(self, place):
         goal = self.PoseStamped()
-        goal.header.frame_id, goal.header.stamp = "map", self.vehicle.clock.clock
+        goal.header.frame_id, goal.header.stamp = "map", self.vehicle.stamp
         goal.pose.position.x, goal.pose.position.y, goal.pose.position.z = place + (HEIGHT,)
         goal.pose.orientation.w = 1.0
         self.goal.publish(goal)

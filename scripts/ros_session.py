@@ -130,16 +130,14 @@ class Vehicle:
         import rosgraph
         import rospy
         from nav_msgs.msg import Odometry
-        from rosgraph_msgs.msg import Clock
         from std_msgs.msg import String, UInt32
         self.nodes = nodes
-        self.truth = self.contacts = self.contact = self.clock = None
+        self.truth = self.contacts = self.contact = self.stamp = None
         self.driven_m = 0.0
         nodes.wait_until(rosgraph.is_master_online, START_SECONDS, "roscore")
         rospy.init_node("session", anonymous=True, disable_signals=True)
         rospy.Subscriber("contacts", UInt32, self.keep("contacts"))
         rospy.Subscriber("contact", String, self.keep("contact"))
-        rospy.Subscriber("/clock", Clock, self.keep("clock"))
         rospy.Subscriber("ground_truth", Odometry, self.on_truth)
 
     def keep(self, name):
@@ -149,15 +147,15 @@ class Vehicle:
         if self.truth is not None:
             a, b = self.truth.pose.pose.position, message.pose.pose.position
             self.driven_m += math.dist((a.x, a.y, a.z), (b.x, b.y, b.z))
-        self.truth = message
+        self.truth, self.stamp = message, message.header.stamp
 
     def wait_until_ready(self):
-        self.nodes.wait_until(lambda: self.truth and self.clock and self.contacts is not None,
+        self.nodes.wait_until(lambda: self.truth and self.stamp and self.contacts is not None,
                               START_SECONDS, "simulator")
 
     def now(self):
-        """Simulated seconds."""
-        return self.clock.clock.to_sec() if self.clock else 0.0
+        """Seconds of the simulator's time: simulated ones, or, where it publishes no /clock, of the wall clock."""
+        return self.stamp.to_sec() if self.stamp else 0.0
 
     def pose(self):
         """True x, y, z in m and yaw in rad, in the map."""
@@ -222,7 +220,7 @@ class Planner:
 
     def fill(self, message, pose, values):
         message.header.frame_id = "map"
-        message.header.stamp = self.vehicle.clock.clock
+        message.header.stamp = self.vehicle.stamp
         pose.position.x, pose.position.y, pose.position.z = values[:3]
         pose.orientation.z, pose.orientation.w = math.sin(values[3] / 2), math.cos(values[3] / 2)
         return message

@@ -59,8 +59,8 @@ def jump(demo, seconds):
         rospy.set_param("/simulator/" + name, value)
     to = min(max(1.0, before + seconds), 2e9)
     rospy.set_param("/simulator/start_time", to)
-    demo.vehicle.clock = None
-    demo.nodes.wait_until(lambda: process_id("/simulator") not in (None, pid) and demo.vehicle.clock,
+    demo.vehicle.stamp = None
+    demo.nodes.wait_until(lambda: process_id("/simulator") not in (None, pid) and demo.vehicle.stamp,
                           patience(BACK_SECONDS), "simulator")
     with Heartbeats() as heartbeats:
         demo.drive.goes_on()

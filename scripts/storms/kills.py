@@ -85,7 +85,7 @@ class Kills:
         """What was driven before time went back is not driven any more. Not where others are killed, too: a goal has come meanwhile."""
         if len(self.counts) > 1:
             return
-        self.vehicle.clock, began = None, self.drive.ends[0]
+        self.vehicle.stamp, began = None, self.drive.ends[0]
         self.nodes.wait_until(lambda: self.vehicle.now() > 3.0, patience(BACK_SECONDS), "/clock")
         if self.vehicle.distance(began) > 0.1:
             raise SessionFailed("%.2f m from where it began without a new goal" % self.vehicle.distance(began))

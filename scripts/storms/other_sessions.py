@@ -42,7 +42,7 @@ class Manual(Demo):
 
     FIRST_CELLS = 20
     COMMANDER, TICK, MASTER_TIMEOUT = "/teleop_joy", 0.05, None  # whoever holds the button sees the vehicle
-    PREFIX, OVER_A_LINK = "joystick_prefix", {}
+    PREFIX, OVER_A_LINK, KNOWS_AGES = "joystick_prefix", {}, False
     AXES = (0.0, 0.5, 0.0, 0.5, 0.0)  # ahead, and to the left
     BUTTONS = (0, 0, 0, 0, 1, 0)
 

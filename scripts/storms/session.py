@@ -115,6 +115,7 @@ class Session:
     COMMANDER, TICK = "/navigate_path", 0.02  # publishes cmd_vel; s, its period
     PREFIX = "navigate_prefix"  # the launch file's argument for what is put before the command of the commander
     OVER_A_LINK = {"tf_timeout": 1.0, "no_progress_timeout": 0.0}  # what changes of its parameters where it is on one
+    KNOWS_AGES = True  # of all that the commander drives by
     MASTER_TIMEOUT = 6.0  # s, of the commander where it is given in `commander`; None: it has none
     THERE = 0.4      # m: so near to an end the vehicle is sent to the other
     # For the kills in it:
@@ -219,7 +220,7 @@ class Drive:
     def publish_goal(self):
         goal = self.goal_type()
         goal.header.frame_id = "map"
-        goal.header.stamp = self.vehicle.clock.clock
+        goal.header.stamp = self.vehicle.stamp
         x, y, z, yaw = self.ends[self.end]
         goal.pose.position.x, goal.pose.position.y, goal.pose.position.z = x, y, z
         goal.pose.orientation.z, goal.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)

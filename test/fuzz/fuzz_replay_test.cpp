@@ -1,13 +1,17 @@
 // The fuzzer's targets in the normal build: each over its seeds and damaged copies of them, which take no longer than
-// scripts/fuzz allows.
+// scripts/fuzz allows; and over all that the fuzzer has kept, where GPP_FUZZ_CORPUS names the folder
+// (~/.cache/grid_path_planner/fuzz).
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <random>
 
 #include "fuzz/fuzz_target.h"
 #include "support/bounded_run.h"
 #include "support/mutation.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::fuzz {
 namespace {
@@ -26,6 +30,20 @@ void expectAnswer(const FuzzTarget& target, const std::string& input) {
   EXPECT_LE(processorSeconds() - begin, kMostSeconds) << testing::PrintToString(input);
 }
 
+// Inputs that grew the coverage, and those that were found to take long.
+std::vector<std::string> kept(const std::string& target) {
+  std::vector<std::string> inputs;
+  const char* corpus = std::getenv("GPP_FUZZ_CORPUS");
+  if (corpus == nullptr) return inputs;
+  for (const char* kind : {"", "-findings"}) {
+    const std::filesystem::path folder = corpus + ("/" + target) + kind;
+    if (!std::filesystem::exists(folder)) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      inputs.push_back(test::contentOf(entry.path().string()));
+  }
+  return inputs;
+}
+
 class FuzzReplay : public testing::TestWithParam<FuzzTarget> {};
 
 TEST_P(FuzzReplay, AnswersItsSeedsAndDamagedCopiesOfThem) {
@@ -37,6 +55,7 @@ TEST_P(FuzzReplay, AnswersItsSeedsAndDamagedCopiesOfThem) {
     for (int copy = 0; copy < kCopies; ++copy)
       expectAnswer(GetParam(), test::mutated(seed, random));
   }
+  for (const std::string& input : kept(GetParam().name)) expectAnswer(GetParam(), input);
 }
 
 TEST_P(FuzzReplay, AnswersNothingAtAll) {

@@ -61,13 +61,15 @@ TEST_F(NavigateLoop, ALogThatNobodyReadsDoesNotHoldIt) {
   navigate_->signal(SIGKILL);  // the log holds its orderly end
 }
 
+// With a comment it is no file as we write it, and read by yaml-cpp: so slowly that a loop that waits for it is seen.
 TEST_F(NavigateLoop, AWaypointFileIsReadElsewhere) {
   StillWorld world(100.0);
   const TemporaryFolder folder{testing::TempDir()};
-  const std::string file = folder.path("route.yaml");
   Path path;
   for (int i = 0; i < 20000; ++i) path.poses.push_back({{0.01 * i, 0.1 * (i % 7), 0}, 0.0});
-  path::writeWaypointFile(file, path);
+  path::writeWaypointFile(folder.path("plain.yaml"), path);
+  const std::string file =
+      folder.write("route.yaml", "# by hand\n" + test::contentOf(folder.path("plain.yaml")));
   drive();
   actionlib::SimpleActionClient<NavigatePathAction> client("navigate_path", false);
   ASSERT_TRUE(test::waitFor([&] { return client.isServerConnected(); }));

