@@ -31,6 +31,7 @@ MOST_MB = 2500.0
 PROMPT = 0.5          # s that 95 % of the answers take at most
 LONGEST_ANSWER = 5.0  # s
 ENOUGH = 0.8          # of the rates of maps and goals
+TALLY_SECONDS = 0.2   # between two counts of these
 MOST_AGAIN = 1e-3     # of the answers
 CLOSED = ("unable to receive data from sender", "connection closed")  # rospy's words for such a connection
 ENDS, END_SECONDS = ((180.0, 180.0), (180.0, 20.0)), 45.0  # m; so long each, in which none drives 100 m
@@ -174,15 +175,29 @@ def never_read():
     return connect, 1.0
 
 
+COUNTED = ("maps", "goals")  # of LOADS: by what path_planner was sent
 ANSWERED, AGAIN = "clients", "again: "  # of LOADS: what it prints is read, and what such a line begins with
 LOADS = {"maps": publish_maps, "goals": publish_goals, "clients": ask_for_plans, "deaf": never_read}
 
 
-def put_load(kind, rate=None):
+def keep_tally(name):
+    """Of what subscribers were sent, in a file: getBusStats has no room for so many bytes."""
+    from rospy.impl.registration import get_topic_manager
+    while True:
+        links = [link for topic, publisher in list(get_topic_manager().pubs.items()) if topic != "/rosout"
+                 for link in publisher.get_stats()[2]]
+        with open(name + ".new", "w") as file:
+            file.write("%d" % max([number for _, _, number, _ in links] or [0]))
+        os.replace(name + ".new", name)
+        time.sleep(TALLY_SECONDS)
+
+
+def put_load(kind, tally, rate=None):
     """In a process of its own, until it is killed."""
     import rospy
     rospy.init_node("load_" + kind, disable_signals=True)
     act, usual = LOADS[kind]()
+    threading.Thread(target=keep_tally, args=(tally,), daemon=True).start()
     period = 1.0 / float(rate or usual)
     due = time.monotonic()
     while True:
@@ -191,18 +206,9 @@ def put_load(kind, rate=None):
         time.sleep(max(0.0, due - time.monotonic()))
 
 
-def sent_by(kind):
-    """How many messages path_planner has been sent by this load."""
-    import rosgraph
-    import xmlrpc.client
-    node = xmlrpc.client.ServerProxy(rosgraph.Master("/storm").lookupNode("/load_" + kind))
-    links = [link for topic, _, links in node.getBusStats("/storm")[2][0] if topic != "/rosout" for link in links]
-    return max([number for _, _, number, _ in links] or [0])
-
-
 class Nodes:
     def __init__(self, folder, given, commander):
-        self.log = open(os.path.join(folder, "log"), "w")
+        self.folder, self.log = folder, open(os.path.join(folder, "log"), "w")
         extra = {}
         for text in given:
             node, _, parameter = text.partition("/")
@@ -216,13 +222,23 @@ class Nodes:
 
     def load(self, kind, *rate):
         more = {"stdout": subprocess.PIPE} if kind == ANSWERED else {}
-        self.loads[kind] = self.start([sys.executable, "-m", "storms.load", kind, *map(str, rate)], text=True,
+        self.loads[kind] = self.start([sys.executable, "-m", "storms.load", kind, self.tally(kind), *map(str, rate)], text=True,
                                       cwd=os.path.dirname(os.path.dirname(os.path.abspath(__file__))), **more)
 
+    def tally(self, kind):
+        return os.path.join(self.folder, "sent_by_" + kind)
+
+    def sent_by(self, kind):
+        """How many messages path_planner has been sent by this load, as far as it has said."""
+        with open(self.tally(kind)) as file:
+            return int(file.read())
+
     def end_loads(self):
-        for process in self.loads.values():
+        for kind, process in self.loads.items():
             process.kill()
             process.wait()
+            if os.path.exists(self.tally(kind)):
+                os.remove(self.tally(kind))
         self.loads = {}
 
     def check(self):
@@ -300,13 +316,14 @@ def suffer(nodes, seconds, silence, map_rate):
         nodes.load(kind)
     answers = Answers(nodes.loads[ANSWERED])
     silence.begin()
+    wait(nodes, lambda: all(os.path.exists(nodes.tally(kind)) for kind in COUNTED), "loads")
     begin, most = time.monotonic(), 0.0
-    before = {kind: sent_by(kind) for kind in ("maps", "goals")}
+    before = {kind: nodes.sent_by(kind) for kind in COUNTED}
     while time.monotonic() < begin + seconds:
         nodes.check()
         most = max(most, *nodes.resident().values())
         time.sleep(0.2)
-    answers.rates = {kind: (sent_by(kind) - number) / (time.monotonic() - begin) for kind, number in before.items()}
+    answers.rates = {kind: (nodes.sent_by(kind) - number) / (time.monotonic() - begin) for kind, number in before.items()}
     silence.end()
     nodes.check()
     nodes.end_loads()

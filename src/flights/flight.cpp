@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <random>
 
 #include "flights/flight_pilot.h"
 #include "flights/flight_steps.h"
 #include "flights/sight_audit.h"
 #include "grid_path_planner/simulation/vehicle.h"
+#include "study/fingerprint.h"
 
 namespace grid_path_planner::flights {
 
@@ -48,23 +48,6 @@ DeadReckoningOptions odometryOf(const FlightStudy& study, int seed) {
   options.odometry_seed = seed;
   return options;
 }
-
-// FNV-1a over the bits of numbers.
-class BitsHash {
- public:
-  void add(double number) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &number, sizeof bits);
-    for (int byte = 0; byte < 8; ++byte) {
-      hash_ = (hash_ ^ (bits & 0xffu)) * 1099511628211u;
-      bits >>= 8;
-    }
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 14695981039346656037u;
-};
 
 bool gaveUp(PilotStatus status) {
   return status == PilotStatus::STUCK || status == PilotStatus::GOAL_OCCUPIED ||
@@ -163,10 +146,10 @@ class Flight {
 
   void hash(const base::BodyVelocity& velocity) {
     for (const double number : {velocity.surge, velocity.sway, velocity.heave, velocity.yaw_rate})
-      bits_.add(number);
+      bits_.addNumber(number);
     const VehicleState& truth = vehicle_.state();
-    for (int axis = 0; axis < 3; ++axis) bits_.add(truth.position[axis]);
-    bits_.add(truth.yaw);
+    for (int axis = 0; axis < 3; ++axis) bits_.addNumber(truth.position[axis]);
+    bits_.addNumber(truth.yaw);
   }
 
   void judge(const PilotAnswer& answer) {
@@ -250,7 +233,7 @@ class Flight {
   const FlightWatch& watch_;
   Frame frame_;
   FlightRecord record_;
-  BitsHash bits_;
+  study::Fingerprint bits_;  // of what the vehicle did
   std::vector<double> update_ms_;
   double camera_ms_ = 0.0;
   double next_place_ = 0.0;  // s

@@ -59,8 +59,10 @@ std::optional<KnownHeading> headingAfterStep(const std::optional<KnownHeading>& 
 }
 
 KeptHeading::KeptHeading(const std::string& folder, const std::string& node)
-    : run_(runId()), folder_(folder), file_(folder + "/" + keptFileName(node, run_, ".heading")) {
-  removeOldKeptFiles(file_);
+    : run_(runIdAtStart()),
+      folder_(folder),
+      file_(folder + "/" + keptFileName(node, run_, ".heading")) {
+  if (!run_.empty()) removeOldKeptFiles(file_);
 }
 
 std::optional<KnownHeading> KeptHeading::begin() const {

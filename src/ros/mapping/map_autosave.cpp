@@ -30,7 +30,6 @@ using mapping::ProjectedMapOptions;
 namespace {
 
 constexpr char kSlot[] = "autosave";
-constexpr char kNoRun[] = "the master has no /run_id, as roscore sets it";
 constexpr double kAnswers = 3.0;  // s since the master's last answer: it is worth a question
 constexpr std::size_t kBeginning = 4096;  // bytes, that hold the lines before the octree
 
@@ -38,15 +37,21 @@ constexpr std::size_t kBeginning = 4096;  // bytes, that hold the lines before t
 
 MapAutosave::MapAutosave(const std::string& folder, const std::string& node,
                          const ProjectedMapOptions& options)
-    : folder_(folder), node_(node), run_(runId()), frame_id_(options.frame_id) {
-  if (run_.empty()) noteProblem(kNoRun);
+    : folder_(folder), node_(node), run_(runIdAtStart()), frame_id_(options.frame_id) {
   nameFile();
-  removeOldKeptFiles(file_);
+  if (run_.empty())
+    noteProblem(no_run_);
+  else
+    removeOldKeptFiles(file_);
   setOptions(options);
 }
 
 void MapAutosave::nameFile() {
-  file_ = folder_ + "/" + keptFileName(node_, run_, ".ot");
+  file_ = fileOf(run_);
+}
+
+std::string MapAutosave::fileOf(const std::string& run) const {
+  return folder_ + "/" + keptFileName(node_, run, ".ot");
 }
 
 void MapAutosave::setOptions(const ProjectedMapOptions& options) {
@@ -56,12 +61,16 @@ void MapAutosave::setOptions(const ProjectedMapOptions& options) {
 }
 
 // A roscore that was restarted has another run, under which a node that is killed now starts again. It has a
-// /run_id a moment after it answers; the question may have failed before, too.
+// /run_id a moment after it answers; or had none when the node started, which then has not begun with what is there.
 void MapAutosave::followMaster() {
   const unsigned restarts = master_->restarts();
   if ((restarts == restarts_ && !run_.empty()) || master_->silence() > kAnswers) return;
   const std::string run = runId();
   if (run.empty()) return;
+  if (std::error_code ignored; run_.empty() && std::filesystem::exists(fileOf(run), ignored)) {
+    no_run_ = fileOf(run) + " is of this run and was not begun with: start the node again";
+    return;
+  }
   restarts_ = restarts;
   if (std::exchange(run_, run) == run) return;
   replaced_ = file_;
@@ -107,7 +116,7 @@ void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud, When 
   followMaster();
   if (isInFile(map)) return;
   noteUnsaved();
-  if (run_.empty()) return noteProblem(kNoRun);
+  if (run_.empty()) return noteProblem(no_run_);
   if (when == When::IF_DUE && !share_.due()) return;
   std::string text;
   share_.take([&] { text = map.map().fileText(commentsOf(marker(), newest_cloud)); });

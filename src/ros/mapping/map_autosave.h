@@ -69,13 +69,15 @@ class MapAutosave {
   void noteUnsaved();
   std::optional<KeptMap> kept() const;
   void nameFile();
+  std::string fileOf(const std::string& run) const;
   bool isInFile(const mapping::MapModel& map) const;
   void noteProblem(const std::string& problem);
   void write(const std::string& file, const std::string& text, const ros::Time& newest_cloud);
 
   const std::string folder_, node_;
-  std::string run_;       // "": unknown, then nothing is written
-  std::string file_;      // its path, of the run
+  std::string run_;  // "": unknown, then nothing is written
+  std::string no_run_ = "the master has no /run_id, as roscore sets it";  // why
+  std::string file_;                                                      // its path, of the run
   std::string replaced_;  // of the run before, gone once file_ is written
   std::string frame_id_;
   std::string octree_;  // in one line

@@ -328,6 +328,35 @@ TEST_F(RunOfMaster, IsAskedForUntilThereIsOne) {
   EXPECT_TRUE(becomesOf("first"));
 }
 
+// What lies there is not written over by a node that has not begun with it, however old.
+TEST_F(RunOfMaster, ThatComesLateTakesNothingThatWasKept) {
+  auto node = started();
+  ASSERT_TRUE(becomesOf("first"));
+  kill(*node);
+  const std::filesystem::path kept = keptOf("first");
+  const auto long_ago = std::filesystem::last_write_time(kept) - std::chrono::hours(2);
+  std::filesystem::last_write_time(kept, long_ago);
+  tellMaster("deleteParam", {XmlRpc::XmlRpcValue("/test"), XmlRpc::XmlRpcValue("/run_id")});
+  node = started();
+  ASSERT_TRUE(node->says("the master has no /run_id"));
+  setRun("first");
+  EXPECT_TRUE(node->says("is of this run and was not begun with"));
+  ASSERT_TRUE(std::filesystem::exists(kept));
+  EXPECT_EQ(std::filesystem::last_write_time(kept), long_ago);
+}
+
+// One question that a busy master lost, and a node that was killed began with an empty world.
+TEST_F(RunOfMaster, IsAskedForAgainWhereAQuestionIsLost) {
+  const test::TemporaryFolder apart;
+  master_.stayBehind(apart.path("lossy"));
+  auto node = started();
+  ASSERT_TRUE(becomesOf("first"));
+  kill(*node);
+  apart.write("lossy", "x");
+  node = started();
+  EXPECT_TRUE(node->says("Begins with the map that was kept in"));
+}
+
 TEST_F(RunOfMaster, OfLongAgoIsForgotten) {
   auto node = started();
   ASSERT_TRUE(becomesOf("first"));

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Between nodes and their ROS master: loses the first questions of each registration and name, while a file exists.
+"""Between nodes and their ROS master: loses the first questions of each registration and name, and those for the run,
+while a file exists.
 
     lossy_master.py http://localhost:20001 20002 /tmp/lossy    # nodes have ROS_MASTER_URI=http://localhost:20002
 """
@@ -22,7 +23,8 @@ class LossyMaster(SlowMaster):
 
     def is_lost(self, question):
         arguments, method = xmlrpc.client.loads(question)
-        if not method.startswith("register") or not os.path.exists(self.switch):
+        asks_for_run = method in ("getParam", "hasParam") and arguments[1] == "/run_id"
+        if not (method.startswith("register") or asks_for_run) or not os.path.exists(self.switch):
             return False
         with self.lock:
             self.asked[method, arguments[:2]] += 1

@@ -2,10 +2,14 @@
 
 #include <ros/master.h>
 #include <ros/param.h>
+#include <ros/this_node.h>
 
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+
+#include "ros/common/master/xmlrpc_call.h"
+#include "ros/common/run_node.h"
 
 namespace grid_path_planner::nodes {
 
@@ -14,6 +18,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::chrono::hours kOld{1};
+constexpr int kAskedForRun = 10;         // times
+constexpr double kPatienceForRun = 1.0;  // s, each time
 
 bool isRunId(const std::string& text) {
   const auto belongs = [](char c) {
@@ -49,6 +55,19 @@ std::string keptFileName(const std::string& node, const std::string& run,
 std::string runId() {
   std::string run;
   return ros::param::get("/run_id", run) && isRunId(run) ? run : "";
+}
+
+std::string runIdAtStart() {
+  using XmlRpc::XmlRpcValue;
+  std::string run = runId();
+  for (int asked = 1; run.empty() && asked < kAskedForRun && !nodeIsToEnd(); ++asked) {
+    auto there = callXmlRpc(masterUri(), "hasParam",
+                            {XmlRpcValue(ros::this_node::getName()), XmlRpcValue("/run_id")},
+                            kPatienceForRun);
+    if (there && there->getType() == XmlRpcValue::TypeBoolean && !static_cast<bool&>(*there)) break;
+    run = runId();
+  }
+  return run;
 }
 
 void removeOldKeptFiles(const std::string& file) {
