@@ -98,7 +98,8 @@ void serve(const std::string& name, const NodeMaker& make) {
     reason = endReason();
   }
   ROS_WARN_STREAM(name << " ends: " << (reason.empty() ? "ROS was shut down" : reason));
-  registered.reset();
+  registered
+      ->stop();  // others hold it until the node is gone, and what is given back is not to be registered again
   const auto alone = lockTopics();
   node.reset();
 }

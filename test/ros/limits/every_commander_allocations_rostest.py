@@ -53,8 +53,11 @@ class EveryCommanderAllocations(CommanderTest):
         for name in COMMANDERS:
             switch = os.path.join(self.folder, name)
             node = self.running(name, switch)
-            failures = sum(self.failures_of_a_halt(node, switch) for _ in range(ROUNDS))
-            self.assertGreater(failures, ROUNDS, name)
+            rounds, failures, deadline = 0, 0, session_seconds() + DEADLINE
+            while rounds < ROUNDS or failures <= ROUNDS:  # a busy machine's thread allocates seldom
+                self.assertLess(session_seconds(), deadline, "%s: %d failures in %d rounds" % (name, failures, rounds))
+                failures += self.failures_of_a_halt(node, switch)
+                rounds += 1
             self.assertTrue(self.moves(node), "%s: %s" % (name, self.said(node)))
 
     def failures_of_a_halt(self, node, switch):

@@ -63,12 +63,16 @@ MasterWatch::MasterWatch()
       thread_([this] { run(); }) {}
 
 MasterWatch::~MasterWatch() {
+  stop();
+  thread_.join();
+}
+
+void MasterWatch::stop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     done_ = true;
   }
   ends_.notify_all();
-  thread_.join();
 }
 
 double MasterWatch::silence() const {
@@ -109,11 +113,11 @@ void MasterWatch::ask() {
   const int before = std::exchange(pid_, static_cast<int&>(*pid));
   const bool restarted = before != 0 && before != pid_;
   if (restarted) ++restarts_;
-  const bool knows = askMaster("lookupNode", {self()}).has_value();
+  const std::optional<bool> knows = masterKnows(ros::this_node::getName(), kMasterPatience);
   if (done_ || ros::isShuttingDown()) return;  // its names are gone because they were given back
-  owes_names_ = owes_names_ || restarted || (known_ && !knows);
+  owes_names_ = owes_names_ || restarted || (known_ && knows == false);
   if (owes_names_) owes_names_ = !registersAgain();
-  known_ = known_ || knows;
+  known_ = known_ || knows == true;
   if (!owes_names_ && rememberingIsDue()) rememberServices();
 }
 

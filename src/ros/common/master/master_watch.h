@@ -34,6 +34,9 @@ class MasterWatch {
   // Seconds since the master answered last, to within one; takes no lock.
   double silence() const;
 
+  // No question follows the present one: the process is about to give its names back. Waits for nothing.
+  void stop();
+
   // How often another master answered than the one before.
   unsigned restarts() const { return restarts_.load(); }
 

@@ -16,6 +16,8 @@ using XmlRpc::XmlRpcClient;
 using XmlRpc::XmlRpcDispatch;
 using XmlRpc::XmlRpcValue;
 
+constexpr int kUnknownNode = -1;  // what the master's lookupNode says then
+
 // Whatever came back; none without an answer in time.
 std::optional<XmlRpcValue> ask(const std::string& uri, const std::string& method,
                                const std::vector<XmlRpcValue>& arguments, double seconds) {
@@ -72,6 +74,20 @@ std::optional<std::string> uriOfNode(const std::string& node, double seconds) {
                         {XmlRpcValue(ros::this_node::getName()), XmlRpcValue(node)}, seconds);
   if (!uri || uri->getType() != XmlRpcValue::TypeString) return std::nullopt;
   return static_cast<std::string&>(*uri);
+}
+
+std::optional<bool> masterKnows(const std::string& node, double seconds) {
+  try {
+    auto answer = ask(masterUri(), "lookupNode",
+                      {XmlRpcValue(ros::this_node::getName()), XmlRpcValue(node)}, seconds);
+    if (!answer || answer->getType() != XmlRpcValue::TypeArray || answer->size() != 3)
+      return std::nullopt;
+    const int code = static_cast<int&>((*answer)[0]);
+    if (code == 1 || code == kUnknownNode) return code == 1;
+    return std::nullopt;
+  } catch (const XmlRpc::XmlRpcException&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace grid_path_planner::nodes

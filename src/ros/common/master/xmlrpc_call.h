@@ -33,4 +33,7 @@ std::string masterUri();
 // The URI under which the master knows a node; none where it knows none, or gives no answer.
 std::optional<std::string> uriOfNode(const std::string& node, double seconds);
 
+// Whether the master knows a node; none where it gives no answer within `seconds`.
+std::optional<bool> masterKnows(const std::string& node, double seconds);
+
 }  // namespace grid_path_planner::nodes
