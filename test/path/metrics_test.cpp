@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 
+#include "path/clearance_meter.h"
 #include "support/ascii_map.h"
 #include "support/kept_distance.h"
 #include "support/path_through.h"
@@ -172,6 +174,26 @@ TEST(ClearanceLaw, WanderingPathsHaveThatOfAnIndependentJudge) {
     const double judged = test::leastDistance(points, map, {}, none);
     const double clearance = clearanceOf(pathThrough(points), map, {});
     EXPECT_NEAR(std::min(clearance, none), judged, 1e-9) << "trial " << trial;
+  }
+}
+
+// Another path has been measured before, whose squares of the map are known already.
+TEST(ClearanceLaw, OneMeterForManyPathsSaysTheSame) {
+  std::mt19937 random(2811);
+  for (int trial = 0; trial < 30; ++trial) {
+    const double occupied = std::pow(10.0, -std::uniform_real_distribution<double>(2, 4.5)(random));
+    const auto map = std::make_shared<OccupancyGrid>(
+        test::randomOccupancy(random, 60 + 9 * trial, occupied, 0.2));
+    std::uniform_real_distribution<double> place(-20.0, map->width() + 20.0);
+    ClearanceMeter meter(map, {});
+    for (int i = 0; i < 10; ++i) {
+      std::vector<Eigen::Vector2d> points;
+      for (int k = 0; k <= i % 4; ++k) points.emplace_back(place(random), place(random));
+      const double none = 1e6;
+      const double judged = test::leastDistance(points, *map, {}, none);
+      EXPECT_NEAR(std::min(meter.clearanceOf(pathThrough(points)), none), judged, 1e-9)
+          << "trial " << trial << ", path " << i;
+    }
   }
 }
 

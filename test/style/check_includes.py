@@ -24,6 +24,7 @@ PLANNER_FLOORS = {
 }
 # Private headers that rooms above include too, though no other package should.
 LENT = {
+    "path/clearance_meter.h": {"ros_planning"},
     "path/straight_runs.h": {"planning"},
     "base/available_memory.h": {"mapping", "planners"},
     "base/child_process.h": {"simulation"},

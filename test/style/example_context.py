@@ -33,7 +33,7 @@ CONTEXT = {
                      "bool legal(const std::vector<Eigen::Vector2d>&);",
     "cholesky.h": "extern const Eigen::Matrix<double, 6, 6> covariance; extern const Eigen::Matrix<double, 6, 1> error, right;",
     "shown_text.h": "extern std::string message;",
-    "guarded_queue.h": "extern ros::NodeHandle nh;", "guarded_timer.h": "extern ros::NodeHandle nh; void checkTime();", "straight_runs.h": "extern const std::vector<Eigen::Vector2d> points;",
+    "guarded_queue.h": "extern ros::NodeHandle nh;", "guarded_timer.h": "extern ros::NodeHandle nh; void checkTime();", "straight_runs.h": "extern const std::vector<Eigen::Vector2d> points;", "occupied_cells.h": "extern const grid::OccupancyGrid map; extern const grid::OccupancyThresholds thresholds; extern const Eigen::Vector2d point;", "clearance_meter.h": "extern std::shared_ptr<const grid::OccupancyGrid> map; extern const grid::OccupancyThresholds thresholds; extern const Path path;", "huge_pages.h": "#include <vector>\nextern std::vector<char> cells; extern const std::size_t count;",
     "log_throttle.h": "#include <ros/console.h>\n", "octree_topic.h": "#include <ros/node_handle.h>\n#include <sensor_msgs/PointCloud2.h>\nextern ros::NodeHandle nh; extern const mapping::MapModel map; extern ros::SubscriberStatusCallback connected; sensor_msgs::PointCloud2 centresOf(const mapping::MapModel&);",
     "master_watch.h": "void halt();", "turning_points.h": "extern std::vector<Cell> cells; extern const CostGrid& map;",
     "update_sequence.h": "#include <map_msgs/OccupancyGridUpdate.h>\n#include <ros/message_event.h>\nextern UpdateSequence sequence;"

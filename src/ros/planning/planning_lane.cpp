@@ -26,7 +26,7 @@ using base::StopSource;
 using base::StopToken;
 using base::TaskQueue;
 using costmap::CostGrid;
-using path::clearanceOf;
+using grid::OccupancyThresholds;
 using path::Path;
 using planners::memoryLimitOf;
 using planning::explainFailure;
@@ -159,7 +159,7 @@ Explanation PlanningLane::explain(const PlanningRequest& request, Status status,
 }
 
 PlanStatistics PlanningLane::statistics(const Plan& plan, const PlanningRequest& request,
-                                        const PathPlannerNodeOptions& options) const {
+                                        const PathPlannerNodeOptions& options) {
   PlanStatistics message = statisticsMessage(plan);
   const PlanningRequest asked = printable(request);
   message.goal = asked.goal;
@@ -169,9 +169,14 @@ PlanStatistics PlanningLane::statistics(const Plan& plan, const PlanningRequest&
   message.heuristic = heuristicOf(asked, options);
   message.answered_by = plan.answered_by;
   if (plan.found())
-    message.clearance_m =
-        clearanceOf(plan.path, *planner_->map(), options.planner.costmap.thresholds);
+    message.clearance_m = clearanceOf(plan.path, options.planner.costmap.thresholds);
   return message;
+}
+
+double PlanningLane::clearanceOf(const Path& path, const OccupancyThresholds& thresholds) {
+  if (!clearances_ || !clearances_->isOf(planner_->map(), thresholds))
+    clearances_.emplace(planner_->map(), thresholds);
+  return clearances_->clearanceOf(path);
 }
 
 Path PlanningLane::posesAlong(const Plan& plan, const PathPlannerNodeOptions& options) const {
@@ -200,6 +205,7 @@ double PlanningLane::mapSide() const {
 void PlanningLane::takeMap(std::uint64_t at_least) {
   if (!planner_) planner_ = std::make_unique<PathPlanner>(store_);
   planner_->takeMap(at_least);
+  if (clearances_ && !clearances_->isOfMap(planner_->map())) clearances_.reset();
   bytes_ = planner_->bytesOfSearches();
 }
 
@@ -212,6 +218,7 @@ void PlanningLane::setOptions(const PlannerOptions& options) {
 // An exception may have left the costmaps or the planner half made. Nothing is made here: after a
 // std::bad_alloc there may be no memory for it yet.
 void PlanningLane::beginAnew() {
+  clearances_.reset();
   planner_.reset();
   bytes_ = 0;
 }

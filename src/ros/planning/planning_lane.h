@@ -24,6 +24,7 @@
 #include "grid_path_planner/PlanStatistics.h"
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/planning/path_planner.h"
+#include "path/clearance_meter.h"
 #include "planning/explanation.h"
 #include "planning/via/via_plan.h"
 #include "ros/common/frame_transforms.h"
@@ -65,7 +66,7 @@ class PlanningLane {
                                 std::chrono::duration<double> limit);
   // Of a plan just made for this request; no stamp yet.
   PlanStatistics statistics(const planning::Plan& plan, const PlanningRequest& request,
-                            const PathPlannerNodeOptions& options) const;
+                            const PathPlannerNodeOptions& options);
   // The path of a plan just made, with poses as pose_spacing asks for them.
   path::Path posesAlong(const planning::Plan& plan, const PathPlannerNodeOptions& options) const;
   // All that repeats a plan just made; none where nothing was searched for it, or it was cancelled.
@@ -109,6 +110,7 @@ class PlanningLane {
                               const base::StopSource& stop, const PhaseListener& on_phase,
                               std::uint64_t at_least);
   void beginAnew();
+  double clearanceOf(const path::Path& path, const grid::OccupancyThresholds& thresholds);
   // Of the options, and the memory that the other lane leaves.
   void setOptions(const planning::PlannerOptions& options);
 
@@ -118,6 +120,7 @@ class PlanningLane {
   const PlanningLane* const other_;
   std::atomic<std::size_t> bytes_{0};               // that the planner does not share
   std::unique_ptr<planning::PathPlanner> planner_;  // the worker's; null before takeMap()
+  std::optional<path::ClearanceMeter> clearances_;  // over the planner's map, at most as long
   std::optional<PlanQuestion> question_;            // of the plan just made
   base::TaskQueue worker_;
 };

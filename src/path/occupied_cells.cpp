@@ -1,0 +1,140 @@
+#include "path/occupied_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace grid_path_planner::path {
+
+using grid::Occupancy, grid::OccupancyGrid, grid::OccupancyThresholds;
+
+namespace {
+
+constexpr std::uint64_t kOnes = 0x0101010101010101;
+constexpr std::uint64_t kSigns = kOnes << 7;
+
+Box boxOf(const CellSpan& columns, const CellSpan& rows) {
+  return {Eigen::Vector2d(columns.first, rows.first), Eigen::Vector2d(columns.end, rows.end)};
+}
+
+}  // namespace
+
+OccupiedCells::OccupiedCells(const OccupancyGrid& map, const OccupancyThresholds& thresholds)
+    : map_(map),
+      thresholds_(thresholds),
+      across_((map.width() + kSide - 1) / kSide),
+      up_((map.height() + kSide - 1) / kSide),
+      squares_(static_cast<std::size_t>(across_) * up_, Square::NOT_ASKED_YET) {
+  const int least = std::clamp(thresholds.occupied_min, 0, 127);
+  carry_ = kOnes * static_cast<std::uint64_t>(128 - std::max(least, 1));
+  any_ = least == 0;
+}
+
+double OccupiedCells::distanceTo(const Segment& segment, double limit) {
+  const Eigen::Vector2d low = segment.from.cwiseMin(segment.to);
+  const Eigen::Vector2d high = segment.from.cwiseMax(segment.to);
+  const double reach = limit + kSlack;
+  const CellSpan columns((low.x() - reach) / kSide, (high.x() + reach) / kSide, across_);
+  const CellSpan rows((low.y() - reach) / kSide, (high.y() + reach) / kSide, up_);
+  double least = limit;
+  for (int up = rows.first; up < rows.end; ++up)
+    for (int across = columns.first; across < columns.end; ++across)
+      if (holdsAny(across, up)) lowerInSquare(segment, across, up, least);
+  return least;
+}
+
+// Square after square in rings around the point's own, or the one that is nearest to it.
+double OccupiedCells::distanceTo(const Eigen::Vector2d& point, double limit) {
+  const auto own = [](double at, int count) {
+    return static_cast<int>(std::clamp(std::floor(at / kSide), 0.0, count - 1.0));
+  };
+  const int middle = own(point.x(), across_), level = own(point.y(), up_);
+  double least = limit;
+  const auto ask = [&](int across, int up) {
+    if (across >= 0 && across < across_ && holdsAny(across, up))
+      lowerInSquare({point, point}, across, up, least);
+  };
+  const int last = std::max(across_, up_);
+  for (int ring = 0; ring < last && (ring - 1.0) * kSide <= least; ++ring) {
+    for (int up = std::max(level - ring, 0); up <= std::min(level + ring, up_ - 1); ++up) {
+      const bool whole = up == level - ring || up == level + ring;
+      const int step = whole || ring == 0 ? 1 : 2 * ring;
+      const int first = whole ? std::max(middle - ring, 0) : middle - ring;
+      for (int across = first; across <= middle + ring; across += step) ask(across, up);
+    }
+  }
+  return least;
+}
+
+bool OccupiedCells::holdsAny(int across, int up) {
+  Square& square = squares_[static_cast<std::size_t>(up) * across_ + across];
+  if (square == Square::NOT_ASKED_YET)
+    square = looksLikeAny(across, up) ? Square::HOLDS_ANY : Square::EMPTY;
+  return square == Square::HOLDS_ANY;
+}
+
+bool OccupiedCells::looksLikeAny(int across, int up) const {
+  if (any_) return true;
+  const int first = across * kSide, end = std::min(first + kSide, map_.width());
+  for (int row = up * kSide; row < std::min((up + 1) * kSide, map_.height()); ++row) {
+    const std::int8_t* const values = map_.row(row);
+    std::uint64_t found = 0;
+    int column = first;
+    for (; column + 8 <= end; column += 8) found |= signs(values + column);
+    if (found != 0 || nextIn(row, column, end) < end) return true;
+  }
+  return false;
+}
+
+void OccupiedCells::lowerInSquare(const Segment& segment, int across, int up, double& least) {
+  CellSpan columns(0.0, 0.0, 0), rows(0.0, 0.0, 0);
+  columns.first = across * kSide;
+  columns.end = std::min(columns.first + kSide, map_.width());
+  rows.first = up * kSide;
+  rows.end = std::min(rows.first + kSide, map_.height());
+  if (distanceBetween(segment, boxOf(columns, rows)) >= least) return;
+  for (int row = rows.first; row < rows.end; ++row) lowerInRow(segment, row, columns, least);
+}
+
+// Among the columns of the square that a part of the segment has in its reach.
+void OccupiedCells::lowerInRow(const Segment& segment, int row, const CellSpan& square,
+                               double& least) const {
+  const double reach = least + kSlack;
+  const Eigen::Vector2d low = segment.from.cwiseMin(segment.to);
+  const Eigen::Vector2d high = segment.from.cwiseMax(segment.to);
+  const auto near = clipped(segment, {{low.x(), row - reach}, {high.x(), row + 1.0 + reach}});
+  if (!near) return;
+  const auto [left, right] = std::minmax(near->from.x(), near->to.x());
+  const CellSpan columns(left - reach, right + reach, map_.width());
+  const int end = std::min(columns.end, square.end);
+  for (int column = nextIn(row, std::max(columns.first, square.first), end); column < end;
+       column = nextIn(row, column + 1, end)) {
+    const Eigen::Vector2d corner(column, row);
+    least = std::min(least, distanceBetween(segment, {corner, corner + Eigen::Vector2d(1.0, 1.0)}));
+  }
+}
+
+// The first occupied column from `column` on; `end` where none is.
+int OccupiedCells::nextIn(int row, int column, int end) const {
+  const std::int8_t* const values = map_.row(row);
+  while (column < end) {
+    if (column + 8 <= end && !any_ && signs(values + column) == 0) {
+      column += 8;
+    } else if (thresholds_.classify(values[column]) == Occupancy::OCCUPIED) {
+      return column;
+    } else {
+      ++column;
+    }
+  }
+  return end;
+}
+
+// Not 0 where one of eight cells is occupied, all looked at as one number: adding 128 - threshold to a
+// byte that is not negative sets its sign from the threshold on.
+std::uint64_t OccupiedCells::signs(const std::int8_t* cells) const {
+  std::uint64_t word;
+  std::memcpy(&word, cells, sizeof word);
+  return ((word & ~kSigns) + carry_) & ~word & kSigns;
+}
+
+}  // namespace grid_path_planner::path

@@ -1,0 +1,49 @@
+// The occupied cells of a map, for the distances of points and straight pieces to the nearest one.
+//
+//   OccupiedCells occupied(map, thresholds);
+//   const double cells = occupied.distanceTo(point, 100.0);
+//
+// All lengths are in cells, places in the frame of the grid. A question looks at squares of 64x64 cells, nearest first; whether
+// one holds any occupied cell is found out when it is first asked for, and kept: the first question may cost the map once,
+// later ones little more than the squares in reach.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "grid_path_planner/grid/occupancy.h"
+#include "path/segment.h"
+
+namespace grid_path_planner::path {
+
+class OccupiedCells {
+ public:
+  // `map` outlives this and does not change.
+  OccupiedCells(const grid::OccupancyGrid& map, const grid::OccupancyThresholds& thresholds);
+
+  // `limit` where no occupied cell is nearer.
+  double distanceTo(const Segment& segment, double limit);
+  double distanceTo(const Eigen::Vector2d& point, double limit);
+
+ private:
+  static constexpr double kSlack = 1e-6;  // cells, above all rounding
+  static constexpr int kSide = 64;        // of a square: a row of it is a cache line
+  enum class Square : std::uint8_t { NOT_ASKED_YET, EMPTY, HOLDS_ANY };
+
+  bool holdsAny(int across, int up);
+  bool looksLikeAny(int across, int up) const;
+  void lowerInSquare(const Segment& segment, int across, int up, double& least);
+  void lowerInRow(const Segment& segment, int row, const CellSpan& square, double& least) const;
+  int nextIn(int row, int column, int end) const;
+  std::uint64_t signs(const std::int8_t* cells) const;
+
+  const grid::OccupancyGrid& map_;
+  const grid::OccupancyThresholds thresholds_;
+  std::uint64_t carry_;
+  bool any_;         // even negative numbers count as occupied
+  int across_, up_;  // squares
+  std::vector<Square> squares_;
+};
+
+}  // namespace grid_path_planner::path
