@@ -45,7 +45,7 @@ def with_table(text):
 
 def promised_names():
     """What some page must name, and where that comes from."""
-    for node in [name[len("src/nodes/"):-len(".cpp")] for name in files(("src/nodes",), (".cpp",))]:
+    for node in [name[len("src/nodes/"):-len(".cpp")] for name in files(("src/nodes",), (".cpp",)) if name.count("/") == 2]:
         yield "<!-- parameters: %s -->" % node, "src/nodes"
     if files(("launch",), (".launch",)):
         yield "<!-- launch files -->", "launch"

@@ -14,16 +14,19 @@
 #include <ros/subscription_callback_helper.h>
 
 #include <boost/make_shared.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "grid_path_planner/base/errors.h"
 #include "ros/common/guarded_queue.h"
+#include "ros/common/process/huge_pages.h"
 
 namespace grid_path_planner::nodes {
 
@@ -93,6 +96,23 @@ Message messageFromBytes(std::string_view bytes) {
   return message;
 }
 
+// Of messages whose `data` are bytes: cells, points, pixels.
+template <class Message, class = void>
+struct HasBytes : std::false_type {};
+template <class Message>
+struct HasBytes<Message, std::void_t<decltype(std::declval<Message&>().data.reserve(0))>>
+    : std::bool_constant<sizeof(std::declval<Message&>().data[0]) == 1> {};
+
+// For what a message of so many bytes has in `data`, nearly all of them.
+template <class Message>
+void makeRoom(Message& message, std::size_t bytes) {
+  if constexpr (HasBytes<Message>::value) {
+    if (bytes < kLargeBlock) return;
+    message.data.reserve(bytes);
+    adviseHugePages(message.data.data(), bytes);
+  }
+}
+
 // Stands for a message that came without a byte: no callback gets it.
 template <class Message>
 const boost::shared_ptr<Message>& noMessage() {
@@ -125,7 +145,7 @@ class CheckedMessages : public ros::SubscriptionCallbackHelperT<Parameter> {
       if (refused_) return noMessage<Message>();
       throw;
     }
-    return Base::deserialize(given);
+    return unpacked(given);
   }
   void call(ros::SubscriptionCallbackHelperCallParams& given) override {
     if (given.event.getConstMessage() != noMessage<Message>())
@@ -137,6 +157,19 @@ class CheckedMessages : public ros::SubscriptionCallbackHelperT<Parameter> {
   }
 
  private:
+  // As Base::deserialize(), but with room for a large array.
+  static ros::VoidConstPtr unpacked(const ros::SubscriptionCallbackHelperDeserializeParams& given) {
+    const auto message = boost::make_shared<Message>();
+    ros::serialization::PreDeserializeParams<Message> params;
+    params.message = message;
+    params.connection_header = given.connection_header;
+    ros::serialization::PreDeserialize<Message>::notify(params);
+    makeRoom(*message, given.length);
+    ros::serialization::IStream stream(given.buffer, given.length);
+    ros::serialization::deserialize(stream, *message);
+    return message;
+  }
+
   const std::function<void()> refused_;
 };
 

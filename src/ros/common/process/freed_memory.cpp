@@ -2,14 +2,16 @@
 
 #include <malloc.h>
 
+#include "ros/common/process/huge_pages.h"
+
 namespace grid_path_planner::nodes {
 
 void returnFreedMemory() {
 #ifdef M_MMAP_THRESHOLD
-  constexpr int kLargeBlock = 8 << 20;
-  ::mallopt(M_MMAP_THRESHOLD, kLargeBlock);
+  constexpr int kLeast = kLargeBlock;
+  ::mallopt(M_MMAP_THRESHOLD, kLeast);
   // Else 128 kB now: the memory of each cloud would go back, and come again with the next.
-  ::mallopt(M_TRIM_THRESHOLD, kLargeBlock);
+  ::mallopt(M_TRIM_THRESHOLD, kLeast);
 #endif
 }
 
