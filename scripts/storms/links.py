@@ -63,15 +63,24 @@ def lose_frames(demo, wire):
     wire.loss = 0.0
 
 
-def suffer(demo, wire):
-    """How far it drove while frames were lost, in m."""
-    for trouble in (be_cut, be_late, lose_frames):
+TROUBLES = {"a cut": be_cut, "lateness": be_late, "lost frames": lose_frames}
+
+
+def suffer(demo, wire, took):
+    """How far it drove while frames were lost, in m. `took`, by the trouble: s from its end until the vehicle drives on."""
+    for name, trouble in TROUBLES.items():
         demo.drive.goes_on()
         begin = demo.vehicle.driven_m
         trouble(demo, wire)
         driven = demo.vehicle.driven_m - begin
-        if not demo.drive.goes_on_unasked() and not demo.drive.is_there():
-            raise SessionFailed("the vehicle has not driven on by itself")
+        end = time.monotonic()
+        try:
+            goes_on = demo.drive.goes_on_unasked()
+        except SessionFailed as reason:
+            raise SessionFailed("after %s: %s" % (name, reason)) from reason
+        if not goes_on and not demo.drive.is_there():
+            raise SessionFailed("the vehicle has not driven on by itself after " + name)
+        took.setdefault(name, []).append(time.monotonic() - end)
     return driven
 
 
@@ -88,8 +97,10 @@ def storm(rounds, folder, given, name):
                      arguments=["simulated_time:=false", "%s:=%s" % (session.PREFIX, prefix(wire))],
                      host=wire.addresses[0]) as demo:
             process = process_id(demo.COMMANDER)
-            driven = [suffer(demo, wire) for _ in range(int(rounds))]
+            took = {}
+            driven = [suffer(demo, wire, took) for _ in range(int(rounds))]
             if process_id(demo.COMMANDER) != process:
                 raise SessionFailed("%s has ended" % demo.COMMANDER)
-        return "%d times cut %.0f s, late %.0f s, losing %.0f %%: stood in time, went on by itself, %.1f m driven while it lost" % (
-            int(rounds), CUT_SECONDS, LATE_SECONDS, 100 * LOSS, sum(driven))
+        return "%d times cut %.0f s, late %.0f s, losing %.0f %%: stood in time, went on by itself (%s), %.1f m driven while it lost" % (
+            int(rounds), CUT_SECONDS, LATE_SECONDS, 100 * LOSS,
+            ", ".join("%.1f s after %s" % (max(seconds), name) for name, seconds in took.items()), sum(driven))

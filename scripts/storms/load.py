@@ -1,10 +1,11 @@
 """More is asked of the nodes than they can do: maps of 4000x4000 cells, goals at 1 kHz, service clients, and a
 subscriber that never reads.
 
-On path_planner and one of COMMANDERS with a simulated vehicle; the map is free but for a wall. navigate_path and
-teleop_joy have no world; local_planner sees that of SKY, in which it is alone. Half of the time maps come at 5 Hz, half at 10 Hz. Holds if no node ends, resident memory ends up below MOST_MB, every question of
-~make_plan is answered, 95 % of them within PROMPT seconds and all within LONGEST_ANSWER, once the load is over within 1 s, and
-cmd_vel is silent no longer than silence.py allows. A drive that ends, where path_planner finds no path, is silent too:
+On path_planner and one of COMMANDERS with a simulated vehicle; the map is free but for a wall and a block that is elsewhere in
+each map. navigate_path and teleop_joy have no world; local_planner sees that of SKY, in which it is alone. Half of the time maps
+come at 5 Hz, half at 10 Hz. Holds if no node ends, resident memory ends up below MOST_MB, every question of ~make_plan is
+answered, 95 % of them within PROMPT seconds and all within LONGEST_ANSWER, once the load is over within 1 s, and cmd_vel is
+silent no longer than silence.py allows. A drive that ends, where path_planner finds no path, is silent too:
 the row says how often that was. The goals lie at two ends in turn, so that no drive is over: who has arrived commands nothing. A machine whose load is above twice its cores has more time, in
 proportion: the clients take a core themselves. The row says how many maps and goals a second path_planner was sent; it
 is *not run* where that was less than ENOUGH of what it is about. A question whose connection was closed without an answer
@@ -12,8 +13,6 @@ is asked once more, which roscpp's server needs now and then (security_results.m
 the answers at most.
 """
 import os
-import socket
-import struct
 import subprocess
 import sys
 import threading
@@ -21,21 +20,16 @@ import time
 
 from ros_session import START_SECONDS, SessionFailed, executable, share_file
 
+from .loads import AGAIN, ANSWERED, COUNTED, GOAL_RATE, HEIGHT, LOADS, MAP_RATES, plan
 from .other_sessions import Flight, Manual, hold
 from .session import Demo, Master, NotRun, patience, process_id, resident_mb
 from .silence import Silence, quantile
 
-SIDE, RESOLUTION = 4000, 0.05
-MAP_RATES, GOAL_RATE, CLIENTS = (5.0, 10.0), 1000.0, 50
 MOST_MB = 2500.0
 PROMPT = 0.5          # s that 95 % of the answers take at most
 LONGEST_ANSWER = 5.0  # s
 ENOUGH = 0.8          # of the rates of maps and goals
-TALLY_SECONDS = 0.2   # between two counts of these
 MOST_AGAIN = 1e-3     # of the answers
-CLOSED = ("unable to receive data from sender", "connection closed")  # rospy's words for such a connection
-ENDS, END_SECONDS = ((180.0, 180.0), (180.0, 20.0)), 45.0  # m; so long each, in which none drives 100 m
-HEIGHT = 1.5  # m; 2-D nodes do not care
 SKY = """<sdf version="1.6"><world name="sky"><model name="far"><static>true</static><pose>0 -500 0 0 0 0</pose><link name="box">
 <collision name="box"><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></world></sdf>"""
 
@@ -73,139 +67,6 @@ COMMANDERS = {
 }
 
 
-def serialized_map():
-    """Of bytes: rospy's own message of 16 million cells takes seconds to write."""
-    header = struct.pack("<III", 0, 0, 0) + struct.pack("<I", 3) + b"map"
-    info = struct.pack("<IIfII7d", 0, 0, RESOLUTION, SIDE, SIDE, 0, 0, 0, 0, 0, 0, 1)
-    cells = bytearray(SIDE * SIDE)
-    wall = SIDE // 2 * SIDE
-    cells[wall:wall + SIDE // 2] = b"\x64" * (SIDE // 2)
-    return header + info + struct.pack("<I", len(cells)) + bytes(cells)
-
-
-def publish_maps():
-    import rospy
-    from nav_msgs.msg import OccupancyGrid
-    content = serialized_map()
-
-    class Whole(OccupancyGrid):
-        __slots__ = ()
-
-        def serialize(self, buff):
-            now = time.time()
-            buff.write(content[:4] + struct.pack("<II", int(now), int(now % 1 * 1e9)) + content[12:])
-    publisher = rospy.Publisher("projected_map", OccupancyGrid, queue_size=1)
-    return lambda: publisher.publish(Whole()), MAP_RATES[0]
-
-
-def publish_goals():
-    import rospy
-    from geometry_msgs.msg import PoseStamped
-    publisher = rospy.Publisher("goal", PoseStamped, queue_size=100)
-    goal = PoseStamped()
-    goal.header.frame_id, goal.pose.orientation.w, goal.pose.position.z = "map", 1.0, HEIGHT
-
-    begin = time.monotonic()
-
-    def publish():
-        goal.pose.position.x, goal.pose.position.y = ENDS[int((time.monotonic() - begin) / END_SECONDS) % 2]
-        publisher.publish(goal)
-    return publish, GOAL_RATE
-
-
-def make_plan(persistent=False):
-    import rospy
-    from nav_msgs.srv import GetPlan
-    return rospy.ServiceProxy("/path_planner/make_plan", GetPlan, persistent)
-
-
-def plan(x, y, ask=None):
-    """Seconds that it took, and how many poses the path has."""
-    from nav_msgs.srv import GetPlanRequest
-    request = GetPlanRequest()
-    request.start.header.frame_id = request.goal.header.frame_id = "map"
-    request.start.pose.position.x = request.start.pose.position.y = 1.0
-    request.goal.pose.position.x, request.goal.pose.position.y = x, y
-    request.start.pose.orientation.w = request.goal.pose.orientation.w = 1.0
-    begin = time.monotonic()
-    answer = (ask or make_plan())(request)
-    return time.monotonic() - begin, len(answer.plan.poses)
-
-
-def ask_for_plans():
-    """CLIENTS threads; prints what each answer took, or why there was none. Half of them connect for every question: all
-    would use up the machine's ports, of which a closed connection keeps one for a minute."""
-    def ask(persistent):
-        again = False  # the question is one that had no answer
-        while True:
-            try:
-                proxy = make_plan(persistent)
-                while True:
-                    tell("%.4f" % plan(5.0, 5.0, proxy)[0])
-                    again = False
-            except Exception as reason:
-                again = not again and any(words in str(reason) for words in CLOSED)
-                tell("%s%s: %s" % (AGAIN if again else "", type(reason).__name__, reason))
-                time.sleep(0.0 if again else 1.0)
-
-    def tell(text):
-        sys.stdout.write(" ".join(text.split()) + "\n")  # at once: print() writes the end of the line apart
-        sys.stdout.flush()
-    for number in range(CLIENTS):
-        threading.Thread(target=ask, args=(number % 2 == 0,), daemon=True).start()
-    return lambda: None, 1.0
-
-
-def never_read():
-    """Connections to planning_map that take no byte after the header."""
-    import rosgraph
-    import xmlrpc.client
-    kept = []
-
-    def connect():
-        if kept:
-            return
-        node = xmlrpc.client.ServerProxy(rosgraph.Master("/deaf").lookupNode("/path_planner"))
-        _, host, port = node.requestTopic("/deaf", "/planning_map", [["TCPROS"]])[2]
-        connection = socket.create_connection((host, port))
-        fields = ("callerid=/deaf", "topic=/planning_map", "type=nav_msgs/OccupancyGrid", "md5sum=*")
-        header = b"".join(struct.pack("<I", len(field)) + field.encode() for field in fields)
-        connection.sendall(struct.pack("<I", len(header)) + header)
-        kept.append(connection)
-    return connect, 1.0
-
-
-COUNTED = ("maps", "goals")  # of LOADS: by what path_planner was sent
-ANSWERED, AGAIN = "clients", "again: "  # of LOADS: what it prints is read, and what such a line begins with
-LOADS = {"maps": publish_maps, "goals": publish_goals, "clients": ask_for_plans, "deaf": never_read}
-
-
-def keep_tally(name):
-    """Of what subscribers were sent, in a file: getBusStats has no room for so many bytes."""
-    from rospy.impl.registration import get_topic_manager
-    while True:
-        links = [link for topic, publisher in list(get_topic_manager().pubs.items()) if topic != "/rosout"
-                 for link in publisher.get_stats()[2]]
-        with open(name + ".new", "w") as file:
-            file.write("%d" % max([number for _, _, number, _ in links] or [0]))
-        os.replace(name + ".new", name)
-        time.sleep(TALLY_SECONDS)
-
-
-def put_load(kind, tally, rate=None):
-    """In a process of its own, until it is killed."""
-    import rospy
-    rospy.init_node("load_" + kind, disable_signals=True)
-    act, usual = LOADS[kind]()
-    threading.Thread(target=keep_tally, args=(tally,), daemon=True).start()
-    period = 1.0 / float(rate or usual)
-    due = time.monotonic()
-    while True:
-        act()
-        due = max(due + period, time.monotonic() - 1.0)  # what is late is made up for, a second of it
-        time.sleep(max(0.0, due - time.monotonic()))
-
-
 class Nodes:
     def __init__(self, folder, given, commander):
         self.folder, self.log = folder, open(os.path.join(folder, "log"), "w")
@@ -222,7 +83,7 @@ class Nodes:
 
     def load(self, kind, *rate):
         more = {"stdout": subprocess.PIPE} if kind == ANSWERED else {}
-        self.loads[kind] = self.start([sys.executable, "-m", "storms.load", kind, self.tally(kind), *map(str, rate)], text=True,
+        self.loads[kind] = self.start([sys.executable, "-m", "storms.loads", kind, self.tally(kind), *map(str, rate)], text=True,
                                       cwd=os.path.dirname(os.path.dirname(os.path.abspath(__file__))), **more)
 
     def tally(self, kind):
@@ -389,7 +250,3 @@ def storm(minutes, folder, given, name):
                 return verdict(answers, most, calm, judged(silence, nodes))
         finally:
             nodes.stop()
-
-
-if __name__ == "__main__":
-    put_load(*sys.argv[1:])
