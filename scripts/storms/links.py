@@ -4,7 +4,8 @@ Wire than the master and all other nodes of its session.
 By the wall clock, as on two machines: /clock would be as late as all else, so that to the node nothing was. Holds if the
 vehicle stands within cmd_vel_timeout and its braking of a cut, stands while the link is late where the node knows the
 age of what it hears (a joystick's is not known), drives on after every trouble without a new goal, touches nothing, and
-the node does not end. *Not run* where namespaces or TAP devices may not be made.
+the node does not end. After a cut that may take as much longer as it was cut: TCP tries again ever more seldom, after twice the
+time of before, and nobody tells it that the link is back. *Not run* where namespaces or TAP devices may not be made.
 """
 import time
 
@@ -12,7 +13,7 @@ from ros_session import SessionFailed
 
 from .kills import CMD_VEL_TIMEOUT, STANDS
 from .other_sessions import COMMANDED
-from .session import patience, process_id
+from .session import BACK_SECONDS, patience, process_id
 from .wire import Wire
 
 CUT_SECONDS, LATE_SECONDS, LOSS = 30.0, 2.0, 0.2
@@ -75,7 +76,7 @@ def suffer(demo, wire, took):
         driven = demo.vehicle.driven_m - begin
         end = time.monotonic()
         try:
-            goes_on = demo.drive.goes_on_unasked()
+            goes_on = demo.drive.goes_on_unasked(seconds=BACK_SECONDS + (CUT_SECONDS if trouble is be_cut else 0.0))
         except SessionFailed as reason:
             raise SessionFailed("after %s: %s" % (name, reason)) from reason
         if not goes_on and not demo.drive.is_there():

@@ -267,10 +267,10 @@ class Drive:
         self.retry(lambda: self.vehicle.driven_m > begin + metres, "motion", every=5.0)
         self.vehicle.check_untouched()
 
-    def goes_on_unasked(self, metres=0.3):
+    def goes_on_unasked(self, metres=0.3, seconds=BACK_SECONDS):
         """The same, on the path that it has, or until it is where that ends; whether it has driven so far."""
         begin = self.vehicle.driven_m
-        self.nodes.wait_until(lambda: self.vehicle.driven_m > begin + metres or self.is_there(), patience(BACK_SECONDS),
+        self.nodes.wait_until(lambda: self.vehicle.driven_m > begin + metres or self.is_there(), patience(seconds),
                               "motion without a new goal")
         return self.vehicle.driven_m > begin + metres
 
