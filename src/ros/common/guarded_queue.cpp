@@ -7,6 +7,8 @@
 #include <chrono>
 #include <future>
 #include <memory>
+#include <mutex>
+#include <shared_mutex>
 #include <utility>
 
 #include "base/current_error.h"
@@ -16,15 +18,52 @@ namespace grid_path_planner::nodes {
 
 using base::currentErrorText;
 
+// Whose callbacks are called, each while it holds the lock together with others; whoever removes them has it alone.
+class CallbackOwner {
+ public:
+  // Invalid where they were removed.
+  ros::CallbackInterface::CallResult call(ros::CallbackInterface& callback) {
+    const std::shared_lock<std::shared_mutex> lock(mutex_);
+    if (removed_) return ros::CallbackInterface::Invalid;
+    const Calling calling{std::exchange(calling_, this)};
+    return callback.call();
+  }
+
+  // Waits for those that run in other threads.
+  void remove() {
+    const bool by_its_own = calling_ == this;
+    if (by_its_own) mutex_.unlock_shared();
+    {
+      const std::unique_lock<std::shared_mutex> lock(mutex_);
+      removed_ = true;
+    }
+    if (by_its_own) mutex_.lock_shared();
+  }
+
+ private:
+  struct Calling {
+    const CallbackOwner* const outer;
+    ~Calling() { calling_ = outer; }
+  };
+
+  static thread_local const CallbackOwner* calling_;
+
+  std::shared_mutex mutex_;
+  bool removed_ = false;
+};
+
+thread_local const CallbackOwner* CallbackOwner::calling_ = nullptr;
+
 namespace {
 
 class GuardedCallback : public ros::CallbackInterface {
  public:
-  explicit GuardedCallback(ros::CallbackInterfacePtr callback) : callback_(std::move(callback)) {}
+  GuardedCallback(ros::CallbackInterfacePtr callback, std::shared_ptr<CallbackOwner> owner)
+      : callback_(std::move(callback)), owner_(std::move(owner)) {}
 
   CallResult call() override {
     try {
-      return callback_->call();
+      return owner_->call(*callback_);
     } catch (...) {
       tellGivenUp("A callback");
       return Success;
@@ -34,6 +73,7 @@ class GuardedCallback : public ros::CallbackInterface {
 
  private:
   const ros::CallbackInterfacePtr callback_;
+  const std::shared_ptr<CallbackOwner> owner_;
 };
 
 class Work : public ros::CallbackInterface {
@@ -51,9 +91,12 @@ class Work : public ros::CallbackInterface {
 }  // namespace
 
 void GuardedQueue::addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) {
-  const auto guarded = boost::make_shared<GuardedCallback>(callback);
+  ros::CallbackInterfacePtr guarded;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    std::shared_ptr<CallbackOwner>& known = owners_[owner];
+    if (!known) known = std::make_shared<CallbackOwner>();
+    guarded = boost::make_shared<GuardedCallback>(callback, known);
     if (holds_) {
       held_.emplace_back(guarded, owner);
       return;
@@ -64,13 +107,20 @@ void GuardedQueue::addCallback(const ros::CallbackInterfacePtr& callback, std::u
 
 // The queue behind waits for a callback that runs, which may add another: not under the lock.
 void GuardedQueue::removeByID(std::uint64_t owner) {
+  std::shared_ptr<CallbackOwner> removed;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    const auto known = owners_.find(owner);
+    if (known != owners_.end()) {
+      removed = std::move(known->second);
+      owners_.erase(known);
+    }
     held_.erase(std::remove_if(held_.begin(), held_.end(),
                                [&](const auto& held) { return held.second == owner; }),
                 held_.end());
   }
   queue_.removeByID(owner);
+  if (removed) removed->remove();
 }
 
 void GuardedQueue::hold() {

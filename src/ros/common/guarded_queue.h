@@ -6,8 +6,9 @@
 // Guaranteed: an exception ends its callback, never the thread that serves the queue, also where there is no memory to
 // tell it; the log says which, at most once a second. roscpp by itself lets it end the process, a nodelet manager with all
 // that it holds. Between hold() and release() nothing is called: a node's constructor is not met by its
-// own callbacks in another thread. The queue behind it does the work and outlives this; callbacks that
-// wait in it may outlive this too. Thread-safe.
+// own callbacks in another thread. Once removeByID() has returned no callback of that owner runs or begins, unless it was
+// called by one: roscpp's queue may still begin one that another thread had just taken out of it. The queue behind
+// does the work and outlives this; callbacks that wait in it may outlive this too. Thread-safe.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -15,12 +16,16 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace grid_path_planner::nodes {
+
+class CallbackOwner;
 
 class GuardedQueue : public ros::CallbackQueueInterface {
  public:
@@ -38,6 +43,7 @@ class GuardedQueue : public ros::CallbackQueueInterface {
   std::mutex mutex_;
   bool holds_ = false;
   std::vector<std::pair<ros::CallbackInterfacePtr, std::uint64_t>> held_;  // with their owners
+  std::map<std::uint64_t, std::shared_ptr<CallbackOwner>> owners_;
 };
 
 // Into the log, at most once a second: an exception ended `what`, and nothing else.
