@@ -13,6 +13,7 @@ import sys
 import rospy
 import rostest
 from roslib.message import get_service_class
+from rosgraph_msgs.msg import Clock
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from nodes_without_memory import PACKAGE, SECONDS, NodesWithoutMemory, RunningNode, executable, probes, session_seconds  # noqa: E402
@@ -90,6 +91,30 @@ class EveryNodeMemory(NodesWithoutMemory):
             answer = node.call("static_map", request)
             self.holds(answer is not None and len(answer.map.data) == side * side, node)
 
+    def test_a_map_that_cannot_be_sent_is_sent_once_there_is_memory(self):
+        """What follows from the code as it was: map_publisher was done with its map before it had a message of it."""
+        side = 4000  # cells
+        self.write_map(side)
+        clock = rospy.Publisher("/late_clock", Clock, queue_size=1)
+        late = self.map_publisher._replace(arguments=self.map_publisher.arguments + ["/clock:=/late_clock"])
+        rospy.set_param("/use_sim_time", True)
+        self.addCleanup(rospy.set_param, "/use_sim_time", False)
+        node = RunningNode("map_publisher", late, "process", self.clock, self.folder, "/late")
+        self.addCleanup(node.end, signal.SIGKILL)
+        with open(node.log.name, errors="replace") as log:
+            said = []
+            self.holds(probes.until(node, lambda: self.says(log, said, ["no /clock has come"]), session_seconds() + SECONDS), node)
+            limit(node.processes[0].pid, address_space(node.processes[0].pid) + side * side // 2)
+
+            def is_refused():
+                clock.publish(Clock(rospy.Time.now()))
+                return self.says(log, said)
+            self.holds(probes.until(node, is_refused, session_seconds() + SECONDS), node, "by its clock")
+        self.assertEqual([], node.heard("projected_map"))
+        limit(node.processes[0].pid)
+        self.holds(probes.until(node, lambda: node.heard("projected_map"), session_seconds() + SECONDS), node, "with memory")
+        self.assertEqual(side * side, len(node.heard("projected_map")[-1].data))
+
     def test_a_map_file_that_does_not_fit_ends_the_start_in_a_sentence(self):
         side = 10000  # cells
         self.write_map(10)
@@ -111,9 +136,9 @@ class EveryNodeMemory(NodesWithoutMemory):
             file.write("image: large.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n")
 
     @staticmethod
-    def says(log, said):
+    def says(log, said, texts=SAID):
         said.append(log.read())
-        return any(text in "".join(said) for text in SAID)
+        return any(text in "".join(said) for text in texts)
 
 
 if __name__ == "__main__":
