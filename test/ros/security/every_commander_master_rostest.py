@@ -6,7 +6,6 @@ stands.
 """
 import os
 import re
-import signal
 import sys
 import threading
 import time
@@ -23,11 +22,9 @@ from node_table import NODES
 from own_master import start_own_master
 from running_nodes import PACKAGE
 from session_clock import session_seconds
-from slow_master import CeasingMaster, SlowMaster
+from slow_master import CeasingMaster
 
 TIMEOUT = 20.0  # s; above what a node takes to notice, on a busy machine too
-PATIENCE = 1.0  # s that the master is waited for
-SLOW, MANY = 0.8 * PATIENCE, 10**6  # s; questions
 WARNING = "the ROS master does not answer"
 DRIVERS = [name for name in COMMANDERS if "manual_control" in NODES[name].inputs]
 BY_HAND = {"teleop_joy"}  # who holds the deadman sees the vehicle; joy_timeout notices a joystick that is gone
@@ -89,36 +86,6 @@ class EveryCommanderMaster(CommanderTest):
     def test_one_that_is_gone(self):
         for name in DRIVERS:
             self.goes_on_says_so_and_stands(name, "die")
-
-    def test_one_that_is_slow_when_a_node_ends_keeps_none_of_its_names(self):
-        """A node that is told after it gave its names back that the master does not know it is not to be registered again. What
-        it was before was not seen to do so either."""
-        for name in COMMANDERS:
-            master = SlowMaster(rosgraph.get_master_uri(), SLOW, MANY, method="lookupNode")
-            self.addCleanup(master.end)
-            node = RunningCommander(name, "process", self.clock, self.folder, master=master.uri)
-            self.started.append(node)
-            self.assertTrue(self.moves(node), "%s: %s" % (node, self.said(node)))
-            asked = len(master.asked_at)
-            self.assertTrue(probes.until(node, lambda asked=asked, master=master: len(master.asked_at) > asked + 2,
-                                         session_seconds() + DEADLINE, every=0.01), "%s asks no longer" % node)
-            self.assertIsNotNone(node.end_processes(signal.SIGTERM), "%s does not end" % node)
-            self.assertEqual([], node.known_names(), str(node))
-
-    def test_one_that_answers_too_late_has_not_forgotten_a_node(self):
-        """What was seen before: an answer that was late counted as one that the master does not know the node. It was registered
-        again each time, and where that fell into its end, what was registered outlived it."""
-        for name in COMMANDERS:
-            master = SlowMaster(rosgraph.get_master_uri(), 1.3 * PATIENCE, MANY, method="lookupNode", before=3)
-            self.addCleanup(master.end)
-            node = RunningCommander(name, "process", self.clock, self.folder, master=master.uri)
-            self.started.append(node)
-            self.assertTrue(self.moves(node), "%s: %s" % (node, self.said(node)))
-            self.assertTrue(probes.until(node, lambda master=master: len(master.asked_at) > 6, session_seconds() + DEADLINE,
-                                         every=0.01), "%s asks no longer" % node)
-            self.assertIsNotNone(node.end_processes(signal.SIGTERM), "%s does not end" % node)
-            self.assertEqual(0, self.times_said(node, "does not know this node"), str(node))
-            self.assertEqual([], node.known_names(), str(node))
 
     def test_every_commander_drives_or_is_driven_by_hand(self):
         self.assertEqual(set(COMMANDERS), set(DRIVERS) | BY_HAND)
