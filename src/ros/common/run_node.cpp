@@ -98,8 +98,7 @@ void serve(const std::string& name, const NodeMaker& make) {
     reason = endReason();
   }
   ROS_WARN_STREAM(name << " ends: " << (reason.empty() ? "ROS was shut down" : reason));
-  registered
-      ->stop();  // others hold it until the node is gone, and what is given back is not to be registered again
+  registered->registerNoMore();  // others hold it until the node is gone
   const auto alone = lockTopics();
   node.reset();
 }

@@ -63,16 +63,12 @@ MasterWatch::MasterWatch()
       thread_([this] { run(); }) {}
 
 MasterWatch::~MasterWatch() {
-  stop();
-  thread_.join();
-}
-
-void MasterWatch::stop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     done_ = true;
   }
   ends_.notify_all();
+  thread_.join();
 }
 
 double MasterWatch::silence() const {
@@ -113,8 +109,9 @@ void MasterWatch::ask() {
   const int before = std::exchange(pid_, static_cast<int&>(*pid));
   const bool restarted = before != 0 && before != pid_;
   if (restarted) ++restarts_;
+  if (isOver()) return;
   const std::optional<bool> knows = masterKnows(ros::this_node::getName(), kMasterPatience);
-  if (done_ || ros::isShuttingDown()) return;  // its names are gone because they were given back
+  if (isOver() || ros::isShuttingDown()) return;  // its names are gone because they were given back
   owes_names_ = owes_names_ || restarted || (known_ && knows == false);
   if (owes_names_) owes_names_ = !registersAgain();
   known_ = known_ || knows == true;
@@ -136,7 +133,7 @@ bool MasterWatch::rememberingIsDue() {
 
 void MasterWatch::rememberServices() {
   const auto state = systemState(kMasterPatience);
-  if (done_) return;
+  if (isOver()) return;
   auto pid = askMaster("getPid");
   if (!state || !pid || static_cast<int&>(*pid) != pid_) return;  // another one knows none of them
   services_.clear();
@@ -154,7 +151,7 @@ bool MasterWatch::registersAgain() const {
   bool all = registersTopics("getPublications", "registerPublisher");
   all = registersTopics("getSubscriptions", "registerSubscriber") && all;
   for (const std::string& service : services_) {
-    if (done_) return false;
+    if (isOver()) return false;
     const std::vector<XmlRpcValue> offer = {XmlRpcValue(service), XmlRpcValue(services_uri_),
                                             XmlRpcValue(ownUri())};
     all = askMaster("registerService", offer).has_value() && all;
@@ -167,7 +164,7 @@ bool MasterWatch::registersTopics(const char* list, const char* method) const {
   auto topics = callXmlRpc(ownUri(), list, {self()}, kMasterPatience);
   bool all = topics.has_value();
   for (int i = 0; topics && i < topics->size(); ++i) {
-    if (done_) return false;
+    if (isOver()) return false;
     const XmlRpcValue& topic = (*topics)[i][0];
     const auto known = askMaster(method, {topic, (*topics)[i][1], XmlRpcValue(ownUri())});
     all = all && known;

@@ -34,8 +34,9 @@ class MasterWatch {
   // Seconds since the master answered last, to within one; takes no lock.
   double silence() const;
 
-  // No question follows the present one: the process is about to give its names back. Waits for nothing.
-  void stop();
+  // No name is registered after the one of the present question: the process is about to give its names back. Waits for
+  // nothing.
+  void registerNoMore() { names_are_given_back_ = true; }
 
   // How often another master answered than the one before.
   unsigned restarts() const { return restarts_.load(); }
@@ -44,6 +45,7 @@ class MasterWatch {
   using Clock = std::chrono::steady_clock;
 
   MasterWatch();
+  bool isOver() const { return done_ || names_are_given_back_; }
   void run();
   void tryToAsk() noexcept;
   void ask();
@@ -66,6 +68,7 @@ class MasterWatch {
   std::atomic<bool> services_grow_{true};
   std::mutex mutex_;
   std::condition_variable ends_;
+  std::atomic<bool> names_are_given_back_{false};
   std::atomic<bool> done_{false};  // looked at between two questions: who ends waits for one
   std::thread thread_;
 };
