@@ -10,9 +10,11 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <chrono>
 #include <limits>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "grid_path_planner/SetPose.h"
 #include "ros/support/latest.h"
@@ -206,16 +208,19 @@ TEST_F(VehicleLocalizerTest, ADriveStandsWhileThePoseIsLostAndGoesOnAfterwards) 
     pose.pose.orientation.w = 1.0;
   }
   path.poses[1].pose.position.x += 100.0;
-  paths.publish(path);
-  const auto drives = [&](bool wanted) {
-    return waitFor([&] {
-      const auto all = commands.all();
-      if (all.empty()) return !wanted;
-      const geometry_msgs::Vector3& v = all.back().linear;
-      return (v.x != 0.0 || v.y != 0.0 || v.z != 0.0) == wanted;
-    });
+  const auto is_moved = [&] {
+    const auto all = commands.all();
+    if (all.empty()) return false;
+    const geometry_msgs::Vector3& v = all.back().linear;
+    return v.x != 0.0 || v.y != 0.0 || v.z != 0.0;
   };
-  ASSERT_TRUE(drives(true)) << navigate.output();
+  const auto drives = [&](bool wanted) { return waitFor([&] { return is_moved() == wanted; }); };
+  // One that comes before the transforms is refused.
+  ASSERT_TRUE(waitFor([&] {
+    if (!is_moved()) paths.publish(path);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    return is_moved();
+  })) << navigate.output();
   stream_.sends_dvl = stream_.sends_fixes = false;
   ASSERT_TRUE(hasStatus("LOST"));
   EXPECT_TRUE(drives(false)) << navigate.output();
