@@ -32,9 +32,9 @@ def serialized_map():
 
 def put_block(content, turn, value):
     """What changes from map to map: a block of BLOCK cells a side goes to and fro on the side of the wall where questions are
-    asked."""
-    column = SIDE // 8 + 5 * abs(turn % 200 - 100)
-    for row in range(SIDE // 8, SIDE // 8 + BLOCK):
+    asked, and where no path to ENDS leads: upon the vehicle it would end the drive."""
+    column = 100 + 5 * abs(turn % 200 - 100)
+    for row in range(3 * SIDE // 8, 3 * SIDE // 8 + BLOCK):
         begin = len(content) - SIDE * SIDE + row * SIDE + column
         content[begin:begin + BLOCK] = bytes([value]) * BLOCK
 
