@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kNoObstacle = std::numeric_limits<double>::infinity();
 constexpr double kFirstReach = 32.0;  // cells
-constexpr double kSlack = 1e-6;       // cells, above all rounding
+constexpr double kSlack = OccupiedCells::kSlack;
 
 // The least distance of a polyline to the occupied cells. Distances change along it no faster than it
 // is long, so a piece between two points whose distances are known is never nearer than half of what

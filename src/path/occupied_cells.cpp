@@ -66,6 +66,11 @@ double OccupiedCells::distanceTo(const Eigen::Vector2d& point, double limit) {
   return least;
 }
 
+CellSpan OccupiedCells::cellsOf(int square, int count) {
+  const double first = square * kSide;
+  return CellSpan(first, first + kSide - 1.0, count);
+}
+
 bool OccupiedCells::holdsAny(int across, int up) {
   Square& square = squares_[static_cast<std::size_t>(up) * across_ + across];
   if (square == Square::NOT_ASKED_YET)
@@ -75,23 +80,19 @@ bool OccupiedCells::holdsAny(int across, int up) {
 
 bool OccupiedCells::looksLikeAny(int across, int up) const {
   if (any_) return true;
-  const int first = across * kSide, end = std::min(first + kSide, map_.width());
-  for (int row = up * kSide; row < std::min((up + 1) * kSide, map_.height()); ++row) {
+  const CellSpan columns = cellsOf(across, map_.width()), rows = cellsOf(up, map_.height());
+  for (int row = rows.first; row < rows.end; ++row) {
     const std::int8_t* const values = map_.row(row);
     std::uint64_t found = 0;
-    int column = first;
-    for (; column + 8 <= end; column += 8) found |= signs(values + column);
-    if (found != 0 || nextIn(row, column, end) < end) return true;
+    int column = columns.first;
+    for (; column + 8 <= columns.end; column += 8) found |= signs(values + column);
+    if (found != 0 || nextIn(row, column, columns.end) < columns.end) return true;
   }
   return false;
 }
 
 void OccupiedCells::lowerInSquare(const Segment& segment, int across, int up, double& least) {
-  CellSpan columns(0.0, 0.0, 0), rows(0.0, 0.0, 0);
-  columns.first = across * kSide;
-  columns.end = std::min(columns.first + kSide, map_.width());
-  rows.first = up * kSide;
-  rows.end = std::min(rows.first + kSide, map_.height());
+  const CellSpan columns = cellsOf(across, map_.width()), rows = cellsOf(up, map_.height());
   if (distanceBetween(segment, boxOf(columns, rows)) >= least) return;
   for (int row = rows.first; row < rows.end; ++row) lowerInRow(segment, row, columns, least);
 }
@@ -99,15 +100,10 @@ void OccupiedCells::lowerInSquare(const Segment& segment, int across, int up, do
 // Among the columns of the square that a part of the segment has in its reach.
 void OccupiedCells::lowerInRow(const Segment& segment, int row, const CellSpan& square,
                                double& least) const {
-  const double reach = least + kSlack;
-  const Eigen::Vector2d low = segment.from.cwiseMin(segment.to);
-  const Eigen::Vector2d high = segment.from.cwiseMax(segment.to);
-  const auto near = clipped(segment, {{low.x(), row - reach}, {high.x(), row + 1.0 + reach}});
-  if (!near) return;
-  const auto [left, right] = std::minmax(near->from.x(), near->to.x());
-  const CellSpan columns(left - reach, right + reach, map_.width());
-  const int end = std::min(columns.end, square.end);
-  for (int column = nextIn(row, std::max(columns.first, square.first), end); column < end;
+  const auto columns = columnsInReach(segment, row, least + kSlack, map_.width());
+  if (!columns) return;
+  const int end = std::min(columns->end, square.end);
+  for (int column = nextIn(row, std::max(columns->first, square.first), end); column < end;
        column = nextIn(row, column + 1, end)) {
     const Eigen::Vector2d corner(column, row);
     least = std::min(least, distanceBetween(segment, {corner, corner + Eigen::Vector2d(1.0, 1.0)}));

@@ -19,6 +19,8 @@ namespace grid_path_planner::path {
 
 class OccupiedCells {
  public:
+  static constexpr double kSlack = 1e-6;  // cells, above all rounding of distances
+
   // `map` outlives this and does not change.
   OccupiedCells(const grid::OccupancyGrid& map, const grid::OccupancyThresholds& thresholds);
 
@@ -27,10 +29,11 @@ class OccupiedCells {
   double distanceTo(const Eigen::Vector2d& point, double limit);
 
  private:
-  static constexpr double kSlack = 1e-6;  // cells, above all rounding
-  static constexpr int kSide = 64;        // of a square: a row of it is a cache line
+  static constexpr int kSide = 64;  // of a square: a row of it is a cache line
   enum class Square : std::uint8_t { NOT_ASKED_YET, EMPTY, HOLDS_ANY };
 
+  static CellSpan cellsOf(int square,
+                          int count);  // its rows or columns, of a map with `count` of them
   bool holdsAny(int across, int up);
   bool looksLikeAny(int across, int up) const;
   void lowerInSquare(const Segment& segment, int across, int up, double& least);

@@ -38,20 +38,24 @@ struct CellSpan {
   int end;
 };
 
+// The columns of a row in which cells are within `reach` of the segment are among these; none where there are none.
+inline std::optional<CellSpan> columnsInReach(const Segment& segment, int row, double reach,
+                                              int width) {
+  const auto [low, high] = std::minmax(segment.from.x(), segment.to.x());
+  const auto near = clipped(segment, {{low, row - reach}, {high, row + 1.0 + reach}});
+  if (!near) return std::nullopt;
+  const auto [left, right] = std::minmax(near->from.x(), near->to.x());
+  return CellSpan(left - reach, right + reach, width);
+}
+
 // Calls visit(row, columns) for the rows of a map of width x height cells, in whose unit the segment
 // is, that have cells within `reach` of it; all of these are among `columns`.
 template <class Visit>
 void forEachRowInReach(const Segment& segment, double reach, int width, int height, Visit&& visit) {
-  const Eigen::Vector2d low = segment.from.cwiseMin(segment.to);
-  const Eigen::Vector2d high = segment.from.cwiseMax(segment.to);
-  const CellSpan rows(low.y() - reach, high.y() + reach, height);
-  for (int row = rows.first; row < rows.end; ++row) {
-    // The part of the segment that is near enough to the row.
-    const auto near = clipped(segment, {{low.x(), row - reach}, {high.x(), row + 1.0 + reach}});
-    if (!near) continue;
-    const auto [left, right] = std::minmax(near->from.x(), near->to.x());
-    visit(row, CellSpan(left - reach, right + reach, width));
-  }
+  const auto [low, high] = std::minmax(segment.from.y(), segment.to.y());
+  const CellSpan rows(low - reach, high + reach, height);
+  for (int row = rows.first; row < rows.end; ++row)
+    if (const auto columns = columnsInReach(segment, row, reach, width)) visit(row, *columns);
 }
 
 }  // namespace grid_path_planner::path

@@ -18,39 +18,37 @@ from session_clock import session_seconds  # noqa: E402
 from slow_master import SlowMaster  # noqa: E402
 
 PATIENCE = 1.0  # s that the master is waited for
-SLOW, MANY = 0.8 * PATIENCE, 10**6  # s; questions
+SLOW, LATE = 0.8 * PATIENCE, 1.3 * PATIENCE
+MANY = 10**6  # questions
 
 
 class EveryCommanderSlowMaster(CommanderTest):
+    def ended(self, name, seconds, before=0):
+        """A node that has ended while its master, but for `before` answers at once, took so long to say whether it knows it."""
+        master = SlowMaster(rosgraph.get_master_uri(), seconds, MANY, method="lookupNode", before=before)
+        self.addCleanup(master.end)
+        node = RunningCommander(name, "process", self.clock, self.folder, master=master.uri)
+        self.started.append(node)
+        self.assertTrue(self.moves(node), "%s: %s" % (node, self.said(node)))
+        asked = max(len(master.asked_at), before)
+        self.assertTrue(probes.until(node, lambda: len(master.asked_at) > asked + 2, session_seconds() + DEADLINE, every=0.01),
+                        "%s asks no longer" % node)
+        self.assertIsNotNone(node.end_processes(signal.SIGTERM), "%s does not end" % node)
+        self.assertEqual([], node.known_names(), str(node))
+        return node
+
     def test_one_that_is_slow_when_a_node_ends_keeps_none_of_its_names(self):
         """A node that is told after it gave its names back that the master does not know it is not to be registered again. What
         it was before was not seen to do so either."""
         for name in COMMANDERS:
-            master = SlowMaster(rosgraph.get_master_uri(), SLOW, MANY, method="lookupNode")
-            self.addCleanup(master.end)
-            node = RunningCommander(name, "process", self.clock, self.folder, master=master.uri)
-            self.started.append(node)
-            self.assertTrue(self.moves(node), "%s: %s" % (node, self.said(node)))
-            asked = len(master.asked_at)
-            self.assertTrue(probes.until(node, lambda asked=asked, master=master: len(master.asked_at) > asked + 2,
-                                         session_seconds() + DEADLINE, every=0.01), "%s asks no longer" % node)
-            self.assertIsNotNone(node.end_processes(signal.SIGTERM), "%s does not end" % node)
-            self.assertEqual([], node.known_names(), str(node))
+            self.ended(name, SLOW)
 
     def test_one_that_answers_too_late_has_not_forgotten_a_node(self):
         """What was seen before: an answer that was late counted as one that the master does not know the node. It was registered
         again each time, and where that fell into its end, what was registered outlived it."""
         for name in COMMANDERS:
-            master = SlowMaster(rosgraph.get_master_uri(), 1.3 * PATIENCE, MANY, method="lookupNode", before=3)
-            self.addCleanup(master.end)
-            node = RunningCommander(name, "process", self.clock, self.folder, master=master.uri)
-            self.started.append(node)
-            self.assertTrue(self.moves(node), "%s: %s" % (node, self.said(node)))
-            self.assertTrue(probes.until(node, lambda master=master: len(master.asked_at) > 6, session_seconds() + DEADLINE,
-                                         every=0.01), "%s asks no longer" % node)
-            self.assertIsNotNone(node.end_processes(signal.SIGTERM), "%s does not end" % node)
+            node = self.ended(name, LATE, before=3)
             self.assertEqual(0, self.times_said(node, "does not know this node"), str(node))
-            self.assertEqual([], node.known_names(), str(node))
 
 
 if __name__ == "__main__":

@@ -115,6 +115,15 @@ class EveryNodeMemory(NodesWithoutMemory):
         self.holds(probes.until(node, lambda: node.heard("projected_map"), session_seconds() + SECONDS), node, "with memory")
         self.assertEqual(side * side, len(node.heard("projected_map")[-1].data))
 
+    def test_a_large_map_is_sent_from_huge_pages(self):
+        """A latched one is kept as it was sent, in an array of roscpp's (src/nodes/memory)."""
+        self.write_map(4000)
+        node = RunningNode("map_publisher", self.map_publisher, "process", self.clock, self.folder, "/sends")
+        self.addCleanup(node.end, signal.SIGKILL)
+        self.holds(probes.until(node, lambda: node.heard("projected_map"), session_seconds() + SECONDS), node)
+        with open("/proc/%d/smaps" % node.processes[0].pid) as file:
+            self.assertTrue(any(line.startswith("VmFlags:") and "hg" in line.split() for line in file))
+
     def test_a_map_file_that_does_not_fit_ends_the_start_in_a_sentence(self):
         side = 10000  # cells
         self.write_map(10)

@@ -4,7 +4,7 @@
 //   adviseHugePages(cells.data(), count);  // before anything is written there
 //
 // A map of 16 million cells that comes is written to 4,096 pages of 4 kB twice, once as roscpp receives it and once as a
-// message, and each of them is mapped, cleared and taken back: with maps at 10 Hz most of a node's time. Linux does as advised
+// message, and each of them is mapped, cleared and taken back: with maps at 10 Hz a quarter of path_planner's time. Linux does as advised
 // where /sys/kernel/mm/transparent_hugepage/enabled is `madvise` or `always`; elsewhere nothing changes.
 #pragma once
 
