@@ -58,5 +58,5 @@ class NodesWithoutMemory(unittest.TestCase):
             return
         with open(node.log.name, errors="replace") as log:
             self.fail("%s: %s, which %s; its log ends with: %s\nIts threads:\n%s" % (
-                what, node, "runs" if node.lives() else "has ended", log.read()[-1500:],
+                what, node.story(), "runs" if node.lives() else "has ended", log.read()[-1500:],
                 "\n".join(threads_of(process) for process in node.processes)))
