@@ -3,14 +3,13 @@ subscriber that never reads.
 
 On path_planner and one of COMMANDERS with a simulated vehicle; the map is free but for a wall and a block that is elsewhere in
 each map. navigate_path and teleop_joy have no world; local_planner sees that of SKY, in which it is alone. Half of the time maps
-come at 5 Hz, half at 10 Hz. Holds if no node ends, resident memory ends up below MOST_MB, every question of ~make_plan is
-answered, 95 % of them within PROMPT seconds and all within LONGEST_ANSWER, once the load is over within 1 s, and cmd_vel is
-silent no longer than silence.py allows. A drive that ends, where path_planner finds no path, is silent too:
-the row says how often that was. The goals lie at two ends in turn, so that no drive is over: who has arrived commands nothing. A machine whose load is above twice its cores has more time, in
-proportion: the clients take a core themselves. The row says how many maps and goals a second path_planner was sent; it
-is *not run* where that was less than ENOUGH of what it is about. A question whose connection was closed without an answer
-is asked once more, which roscpp's server needs now and then (security_results.md): the row counts these, MOST_AGAIN of
-the answers at most.
+come at 5 Hz, half at 10 Hz. Holds if no node ends, resident memory ends up below MOST_MB, every question of ~make_plan
+is answered, 95 % of them within PROMPT seconds and all within LONGEST_ANSWER, once the load is over within CALM, and
+cmd_vel is silent no longer than silence.py allows. A drive that ends, where path_planner finds no path, is silent too:
+the row says how often that was. The goals lie at two ends in turn, so that no drive is over: who has arrived commands
+nothing. The row says how many maps and goals a second path_planner was sent; it is *not run* where that was less than
+ENOUGH of what it is about. A question whose connection was closed without an answer is asked once more, which roscpp's
+server needs now and then (security_results.md): the row counts these, MOST_AGAIN of the answers at most.
 """
 import os
 import subprocess
@@ -28,6 +27,7 @@ from .silence import Silence, quantile
 MOST_MB = 2500.0
 PROMPT = 0.5          # s that 95 % of the answers take at most
 LONGEST_ANSWER = 5.0  # s
+CALM = 1.0            # s, once the load is over
 ENOUGH = 0.8          # of the rates of maps and goals
 MOST_AGAIN = 1e-3     # of the answers
 SKY = """<sdf version="1.6"><world name="sky"><model name="far"><static>true</static><pose>0 -500 0 0 0 0</pose><link name="box">
@@ -206,10 +206,9 @@ def verdict(answers, most, calm, silent):
         raise SessionFailed("no answer under load")
     text = "; ".join(told(rate, each) for rate, each in answers.items())
     text += "; after it %.2f s; at most %.0f MB; %s" % (calm, most, silent)
-    late = any(quantile(each.seconds, 0.95) > patience(PROMPT) or max(each.seconds) > patience(LONGEST_ANSWER)
-               for each in answers.values())
+    late = any(quantile(each.seconds, 0.95) > PROMPT or max(each.seconds) > LONGEST_ANSWER for each in answers.values())
     again = any(each.again > max(1.0, MOST_AGAIN * len(each.seconds)) for each in answers.values())
-    if late or again or any(each.failures for each in answers.values()) or calm > patience(1.0) or most > MOST_MB:
+    if late or again or any(each.failures for each in answers.values()) or calm > CALM or most > MOST_MB:
         raise SessionFailed(text)
     for rate, each in answers.items():
         if each.rates["maps"] < ENOUGH * rate or each.rates["goals"] < ENOUGH * GOAL_RATE:
