@@ -1,15 +1,17 @@
 """More is asked of the nodes than they can do: maps of 4000x4000 cells, goals at 1 kHz, service clients, and a
 subscriber that never reads.
 
-On path_planner and one of COMMANDERS with a simulated vehicle; the map is free but for a wall and a block that is elsewhere in
-each map. navigate_path and teleop_joy have no world; local_planner sees that of SKY, in which it is alone. Half of the time maps
-come at 5 Hz, half at 10 Hz. Holds if no node ends, resident memory ends up below MOST_MB, every question of ~make_plan
-is answered, 95 % of them within PROMPT seconds and all within LONGEST_ANSWER, once the load is over within CALM, and
-cmd_vel is silent no longer than silence.py allows. A drive that ends, where path_planner finds no path, is silent too:
-the row says how often that was. The goals lie at two ends in turn, so that no drive is over: who has arrived commands
-nothing. The row says how many maps and goals a second path_planner was sent; it is *not run* where that was less than
-ENOUGH of what it is about. A question whose connection was closed without an answer is asked once more, which roscpp's
-server needs now and then (security_results.md): the row counts these, MOST_AGAIN of the answers at most.
+On path_planner and one of COMMANDERS with a simulated vehicle; the map is free but for a wall and a block that is
+elsewhere in each map. navigate_path and teleop_joy have no world; local_planner sees that of SKY, in which it is
+alone. Half of the time maps come at 5 Hz, half at 10 Hz. Holds if no node ends, resident memory ends up below MOST_MB,
+every question of ~make_plan is answered, 95 % of them within PROMPT seconds and all within LONGEST_ANSWER, once the
+load is over within CALM, the answers to a question that the block stands in the way of avoid it where it has moved to,
+and cmd_vel is silent no longer than silence.py allows. A drive that ends, where path_planner finds no path, is silent
+too: the row says how often that was. The goals lie at two ends in turn, so that no drive is over: who has arrived
+commands nothing. The row says how many maps and goals a second path_planner was sent; it is *not run* where there were
+fewer than ENOUGH of them, and fails where path_planner took fewer. A question whose connection was closed without an
+answer is asked once more, which roscpp's server needs now and then (security_results.md): the row counts these,
+MOST_AGAIN of the answers at most.
 """
 import os
 import subprocess
@@ -19,14 +21,13 @@ import time
 
 from ros_session import START_SECONDS, SessionFailed, executable, share_file
 
-from .loads import AGAIN, ANSWERED, COUNTED, GOAL_RATE, HEIGHT, LOADS, MAP_RATES, plan
+from .loads import AGAIN, ANSWERED, COUNTED, GOAL_RATE, HEIGHT, LOADS, LONGEST_ANSWER, MAP_RATES, SEEN, plan
 from .other_sessions import Flight, Manual, hold
 from .session import Demo, Master, NotRun, patience, process_id, resident_mb
 from .silence import Silence, quantile
 
 MOST_MB = 2500.0
 PROMPT = 0.5          # s that 95 % of the answers take at most
-LONGEST_ANSWER = 5.0  # s
 CALM = 1.0            # s, once the load is over
 ENOUGH = 0.8          # of the rates of maps and goals
 MOST_AGAIN = 1e-3     # of the answers
@@ -90,9 +91,9 @@ class Nodes:
         return os.path.join(self.folder, "sent_by_" + kind)
 
     def sent_by(self, kind):
-        """How many messages path_planner has been sent by this load, as far as it has said."""
+        """How many messages path_planner has been sent by this load, and how many there were, as far as it has said."""
         with open(self.tally(kind)) as file:
-            return int(file.read())
+            return tuple(map(int, file.read().split()))
 
     def end_loads(self):
         for kind, process in self.loads.items():
@@ -155,7 +156,8 @@ class Answers:
 
     def __init__(self, clients):
         self.seconds, self.failures, self.again = [], [], 0
-        self.rates = {}  # messages a second that path_planner was sent, by the kind of load
+        self.across, self.seen = [], []  # seconds, and where, of questions that the block stands in the way of
+        self.rates = {}  # (messages that path_planner was sent, that there were) a second, by the kind of load
         threading.Thread(target=self.read, args=(clients.stdout,), daemon=True).start()
 
     def read(self, lines):
@@ -165,14 +167,29 @@ class Answers:
             except ValueError:
                 if line.startswith(AGAIN):
                     self.again += 1
+                elif line.startswith(SEEN):
+                    seconds, place = line[len(SEEN):].split()
+                    self.across.append(float(seconds))
+                    self.seen.append(place)
                 else:
                     self.failures.append(line.strip())
+
+
+def prompt_plan():
+    """As plan(), and no answer is a failure."""
+    answers = []
+    thread = threading.Thread(target=lambda: answers.append(plan()), daemon=True)
+    thread.start()
+    thread.join(LONGEST_ANSWER)
+    if not answers:
+        raise SessionFailed("no answer within %g s" % LONGEST_ANSWER)
+    return answers[0]
 
 
 def suffer(nodes, seconds, silence, map_rate):
     """The answers, and the most megabytes of a node."""
     nodes.load("maps", map_rate)
-    wait(nodes, lambda: plan(5.0, 5.0)[1] > 1, "plan")
+    wait(nodes, lambda: len(prompt_plan()[1]) > 1, "plan")
     for kind in list(LOADS)[1:]:
         nodes.load(kind)
     answers = Answers(nodes.loads[ANSWERED])
@@ -184,7 +201,9 @@ def suffer(nodes, seconds, silence, map_rate):
         nodes.check()
         most = max(most, *nodes.resident().values())
         time.sleep(0.2)
-    answers.rates = {kind: (nodes.sent_by(kind) - number) / (time.monotonic() - begin) for kind, number in before.items()}
+    passed = time.monotonic() - begin
+    answers.rates = {kind: [(now - then) / passed for now, then in zip(nodes.sent_by(kind), numbers)]
+                     for kind, numbers in before.items()}
     silence.end()
     nodes.check()
     nodes.end_loads()
@@ -193,26 +212,38 @@ def suffer(nodes, seconds, silence, map_rate):
 
 def told(rate, answers):
     text = "maps at %g Hz (%.1f sent, %.0f goals): %d answers, p95 %.2f s, longest %.1f s, %d asked again" % (
-        rate, answers.rates["maps"], answers.rates["goals"], len(answers.seconds), quantile(answers.seconds, 0.95),
+        rate, answers.rates["maps"][0], answers.rates["goals"][0], len(answers.seconds), quantile(answers.seconds, 0.95),
         max(answers.seconds), answers.again)
+    text += ", past the block %d, p95 %.2f s, it had moved in %.0f %%" % (
+        len(answers.across), quantile(answers.across, 0.95), 100.0 * moved(answers.seen))
     if answers.failures:
         text += ", %d failed, the first: %s" % (len(answers.failures), answers.failures[0])
     return text
 
 
+def moved(places):
+    """In which share of the answers the block is elsewhere than in the one before."""
+    return sum(now not in (then, "nowhere") for then, now in zip(places, places[1:])) / max(1, len(places) - 1)
+
+
 def verdict(answers, most, calm, silent):
     """`answers`: by the rate of the maps. `silent`: of cmd_vel, in words."""
-    if not all(each.seconds for each in answers.values()):
+    if not all(each.seconds and each.across for each in answers.values()):
         raise SessionFailed("no answer under load")
     text = "; ".join(told(rate, each) for rate, each in answers.items())
     text += "; after it %.2f s; at most %.0f MB; %s" % (calm, most, silent)
     late = any(quantile(each.seconds, 0.95) > PROMPT or max(each.seconds) > LONGEST_ANSWER for each in answers.values())
+    late = late or any(max(each.across) > LONGEST_ANSWER or moved(each.seen) < ENOUGH for each in answers.values())
     again = any(each.again > max(1.0, MOST_AGAIN * len(each.seconds)) for each in answers.values())
     if late or again or any(each.failures for each in answers.values()) or calm > CALM or most > MOST_MB:
         raise SessionFailed(text)
     for rate, each in answers.items():
-        if each.rates["maps"] < ENOUGH * rate or each.rates["goals"] < ENOUGH * GOAL_RATE:
-            raise NotRun("the machine was too busy for so much: " + text)
+        for kind, asked in (("maps", rate), ("goals", GOAL_RATE)):
+            sent, made = each.rates[kind]
+            if made < ENOUGH * asked:
+                raise NotRun("the machine was too busy for so much: " + text)
+            if sent < ENOUGH * asked:
+                raise SessionFailed("path_planner took %.1f %s of %.1f a second: %s" % (sent, kind, made, text))
     return text
 
 
@@ -245,7 +276,7 @@ def storm(minutes, folder, given, name):
                     answers[rate], megabytes = suffer(nodes, 60.0 * minutes / len(MAP_RATES), silence, rate)
                     most = max(most, megabytes)
                 time.sleep(2.0)
-                calm, _ = plan(5.0, 5.0)
+                calm, _ = prompt_plan()
                 return verdict(answers, most, calm, judged(silence, nodes))
         finally:
             nodes.stop()

@@ -15,6 +15,9 @@ SIDE, RESOLUTION = 4000, 0.05
 BLOCK = 40            # cells
 MAP_RATES, GOAL_RATE, CLIENTS = (5.0, 10.0), 1000.0, 50
 TALLY_SECONDS = 0.2   # between two counts of what was sent
+PLANNER = "/path_planner"
+LONGEST_ANSWER = 5.0  # s
+ACROSS = (1.0, 40.0, 76.0)  # m: x of a question's two ends, and their y, along the middle of the block's way
 CLOSED = ("unable to receive data from sender", "connection closed")  # rospy's words for such a connection
 ENDS, END_SECONDS = ((180.0, 180.0), (180.0, 20.0)), 45.0  # m; so long each, in which none drives 100 m
 HEIGHT = 1.5  # m; 2-D nodes do not care
@@ -76,44 +79,77 @@ def publish_goals():
 def make_plan(persistent=False):
     import rospy
     from nav_msgs.srv import GetPlan
-    return rospy.ServiceProxy("/path_planner/make_plan", GetPlan, persistent)
+    return rospy.ServiceProxy(PLANNER + "/make_plan", GetPlan, persistent)
 
 
-def plan(x, y, ask=None):
-    """Seconds that it took, and how many poses the path has."""
+NEAR = ((1.0, 1.0), (5.0, 5.0))  # m: a question's two ends
+
+
+def plan(ask=None, start=NEAR[0], goal=NEAR[1]):
+    """Seconds that it took, and the path's poses."""
     from nav_msgs.srv import GetPlanRequest
     request = GetPlanRequest()
-    request.start.header.frame_id = request.goal.header.frame_id = "map"
-    request.start.pose.position.x = request.start.pose.position.y = 1.0
-    request.goal.pose.position.x, request.goal.pose.position.y = x, y
-    request.start.pose.orientation.w = request.goal.pose.orientation.w = 1.0
+    for end, (x, y) in ((request.start, start), (request.goal, goal)):
+        end.header.frame_id, end.pose.orientation.w = "map", 1.0
+        end.pose.position.x, end.pose.position.y = x, y
     begin = time.monotonic()
     answer = (ask or make_plan())(request)
-    return time.monotonic() - begin, len(answer.plan.poses)
+    return time.monotonic() - begin, answer.plan.poses
 
 
 def ask_for_plans():
-    """CLIENTS threads; prints what each answer took, or why there was none. Half of them connect for every question: all
-    would use up the machine's ports, of which a closed connection keeps one for a minute."""
-    def ask(persistent):
+    """CLIENTS threads; prints what each answer took, or why there was none, also while it is waited for. Half of them
+    connect for every question: all would use up the machine's ports, of which a closed connection keeps one for a minute.
+    One more asks once a second for a path through what the block crosses, and prints where it was avoided."""
+    asked = [None] * (CLIENTS + 1)  # when, of questions without an answer
+
+    def answers(number, proxy, *ends):
+        asked[number] = time.monotonic()
+        seconds, poses = plan(proxy, *ends)
+        asked[number] = None
+        if len(poses) < 2:
+            raise ValueError("no path")
+        return seconds, poses
+
+    def ask(number, persistent):
         again = False  # the question is one that had no answer
         while True:
             try:
                 proxy = make_plan(persistent)
                 while True:
-                    tell("%.4f" % plan(5.0, 5.0, proxy)[0])
+                    tell("%.4f" % answers(number, proxy)[0])
                     again = False
             except Exception as reason:
+                asked[number] = None
                 again = not again and any(words in str(reason) for words in CLOSED)
                 tell("%s%s: %s" % (AGAIN if again else "", type(reason).__name__, reason))
                 time.sleep(0.0 if again else 1.0)
 
+    def look_for_block():
+        begin, end, level = ACROSS
+        while True:
+            try:
+                seconds, poses = answers(CLIENTS, None, (begin, level), (end, level))
+                beside = [pose.pose.position.x for pose in poses if abs(pose.pose.position.y - level) > BLOCK * RESOLUTION / 2]
+                tell("%s%.4f %s" % (SEEN, seconds, "%.2f" % min(beside) if beside else "nowhere"))
+            except Exception as reason:
+                asked[CLIENTS] = None
+                again = any(words in str(reason) for words in CLOSED)
+                tell("%s%s: %s" % (AGAIN if again else "", type(reason).__name__, reason))
+            time.sleep(1.0)
+
     def tell(text):
         sys.stdout.write(" ".join(text.split()) + "\n")  # at once: print() writes the end of the line apart
         sys.stdout.flush()
+
+    def tell_late():
+        for number, since in enumerate(asked):
+            if since is not None and time.monotonic() > since + LONGEST_ANSWER:
+                tell("no answer for %.1f s" % (time.monotonic() - since))
     for number in range(CLIENTS):
-        threading.Thread(target=ask, args=(number % 2 == 0,), daemon=True).start()
-    return lambda: None, 1.0
+        threading.Thread(target=ask, args=(number, number % 2 == 0), daemon=True).start()
+    threading.Thread(target=look_for_block, daemon=True).start()
+    return tell_late, 1.0
 
 
 def never_read():
@@ -125,7 +161,7 @@ def never_read():
     def connect():
         if kept:
             return
-        node = xmlrpc.client.ServerProxy(rosgraph.Master("/deaf").lookupNode("/path_planner"))
+        node = xmlrpc.client.ServerProxy(rosgraph.Master("/deaf").lookupNode(PLANNER))
         _, host, port = node.requestTopic("/deaf", "/planning_map", [["TCPROS"]])[2]
         connection = socket.create_connection((host, port))
         fields = ("callerid=/deaf", "topic=/planning_map", "type=nav_msgs/OccupancyGrid", "md5sum=*")
@@ -136,18 +172,21 @@ def never_read():
 
 
 COUNTED = ("maps", "goals")  # of LOADS: by what path_planner was sent
-ANSWERED, AGAIN = "clients", "again: "  # of LOADS: what it prints is read, and what such a line begins with
+ANSWERED, AGAIN, SEEN = "clients", "again: ", "block: "  # of LOADS: what it prints is read, and what such lines begin with
 LOADS = {"maps": publish_maps, "goals": publish_goals, "clients": ask_for_plans, "deaf": never_read}
 
 
-def keep_tally(name):
-    """Of what subscribers were sent, in a file: getBusStats has no room for so many bytes."""
+def keep_tally(name, acts):
+    """What path_planner was sent, over all of its connections, and how often there was something to send, in a file:
+    getBusStats has no room for so many bytes."""
     from rospy.impl.registration import get_topic_manager
+    sent = {}  # {connection: messages}
     while True:
-        links = [link for topic, publisher in list(get_topic_manager().pubs.items()) if topic != "/rosout"
-                 for link in publisher.get_stats()[2]]
+        for topic, publisher in list(get_topic_manager().pubs.items()):
+            if topic != "/rosout":
+                sent.update({link.id: link.stat_num_msg for link in publisher.connections if link.endpoint_id == PLANNER})
         with open(name + ".new", "w") as file:
-            file.write("%d" % max([number for _, _, number, _ in links] or [0]))
+            file.write("%d %d" % (sum(sent.values()), acts[0]))
         os.replace(name + ".new", name)
         time.sleep(TALLY_SECONDS)
 
@@ -157,11 +196,13 @@ def put_load(kind, tally, rate=None):
     import rospy
     rospy.init_node("load_" + kind, disable_signals=True)
     act, usual = LOADS[kind]()
-    threading.Thread(target=keep_tally, args=(tally,), daemon=True).start()
+    acts = [0]
+    threading.Thread(target=keep_tally, args=(tally, acts), daemon=True).start()
     period = 1.0 / float(rate or usual)
     due = time.monotonic()
     while True:
         act()
+        acts[0] += 1
         due = max(due + period, time.monotonic() - 1.0)  # what is late is made up for, a second of it
         time.sleep(max(0.0, due - time.monotonic()))
 

@@ -4,8 +4,9 @@
         silence.begin(); ...; silence.end()
         print(silence.verdict())          # SessionFailed where the law does not hold
 
-p99.9 is at most two ticks and what the bare thread is late, and the half of cmd_vel_timeout, and no silence is longer than the half of cmd_vel_timeout and
-the latest that the bare thread was: so long nobody had the machine.
+What is silent when it ends counts as it is then, also where nothing was heard at all. p99.9 is at most two ticks and
+what the bare thread is late, and the half of cmd_vel_timeout, and no silence is longer than the half of
+cmd_vel_timeout and the latest that the bare thread was: so long nobody had the machine.
 
 With Silence(stops=True) the vehicle is stopped by `stop` every STOP_EVERY seconds, too: a zero follows within
 cmd_vel_timeout.
@@ -79,11 +80,36 @@ class Silence:
         self.process.wait()
 
 
+class Gaps:
+    """Seconds between what is heard, while it listens. Thread-safe."""
+
+    def __init__(self):
+        self.seconds, self.since = [], None  # since: it listens, from then on or from what it last heard
+        self.begun, self.lock = False, threading.Lock()
+
+    def heard(self, now):
+        with self.lock:
+            if self.since is not None:
+                if self.begun:
+                    self.seconds.append(now - self.since)
+                self.since, self.begun = now, True
+
+    def begin(self, now):
+        with self.lock:
+            self.since, self.begun = now, False  # how long it was silent before is not asked
+
+    def end(self, now):
+        with self.lock:
+            if self.since is not None:
+                self.seconds.append(now - self.since)
+            self.since = None
+
+
 class Listener:
     def __init__(self, stops):
         import rospy
         from geometry_msgs.msg import Twist
-        self.listens, self.last, self.gaps, self.late = False, None, [], []
+        self.listens, self.gaps, self.late = False, Gaps(), []
         self.stands, self.stopped_at, self.delays = True, None, []
         rospy.Subscriber("/cmd_vel", Twist, self.on_velocity, tcp_nodelay=True)
         threading.Thread(target=self.tick, daemon=True).start()
@@ -92,9 +118,7 @@ class Listener:
 
     def on_velocity(self, velocity):
         now = time.monotonic()
-        if self.listens and self.last is not None:
-            self.gaps.append(now - self.last)
-        self.last = now if self.listens else None
+        self.gaps.heard(now)
         self.stands = velocity.linear.x == velocity.linear.y == velocity.linear.z == velocity.angular.z == 0.0
         if self.stands and self.stopped_at is not None:
             self.delays.append(now - self.stopped_at)
@@ -128,8 +152,9 @@ class Listener:
         print("listens", flush=True)
         for word in map(str.strip, sys.stdin):
             if word == "report":
-                print(json.dumps([self.gaps, self.late, self.delays]), flush=True)
+                print(json.dumps([self.gaps.seconds, self.late, self.delays]), flush=True)
             self.listens = word == "begin"
+            (self.gaps.begin if self.listens else self.gaps.end)(time.monotonic())
 
 
 def take_realtime_priority():

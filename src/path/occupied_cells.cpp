@@ -50,18 +50,19 @@ double OccupiedCells::distanceTo(const Eigen::Vector2d& point, double limit) {
   };
   const int middle = own(point.x(), across_), level = own(point.y(), up_);
   double least = limit;
-  const auto ask = [&](int across, int up) {
-    if (across >= 0 && across < across_ && holdsAny(across, up))
-      lowerInSquare({point, point}, across, up, least);
+  const auto ask = [&](int left, int right, int low, int high) {
+    const int first = std::max(left, 0), last = std::min(right, across_ - 1);
+    if (first > last) return;  // or a tall map's rows would all be visited for nothing
+    for (int up = std::max(low, 0); up <= std::min(high, up_ - 1); ++up)
+      for (int across = first; across <= last; ++across)
+        if (holdsAny(across, up)) lowerInSquare({point, point}, across, up, least);
   };
+  ask(middle, middle, level, level);
   const int last = std::max(across_, up_);
-  for (int ring = 0; ring < last && (ring - 1.0) * kSide <= least; ++ring) {
-    for (int up = std::max(level - ring, 0); up <= std::min(level + ring, up_ - 1); ++up) {
-      const bool whole = up == level - ring || up == level + ring;
-      const int step = whole || ring == 0 ? 1 : 2 * ring;
-      const int first = whole ? std::max(middle - ring, 0) : middle - ring;
-      for (int across = first; across <= middle + ring; across += step) ask(across, up);
-    }
+  for (int ring = 1; ring < last && (ring - 1.0) * kSide <= least; ++ring) {
+    for (const int up : {level - ring, level + ring}) ask(middle - ring, middle + ring, up, up);
+    for (const int across : {middle - ring, middle + ring})
+      ask(across, across, level - ring + 1, level + ring - 1);
   }
   return least;
 }

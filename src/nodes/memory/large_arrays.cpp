@@ -20,10 +20,22 @@ void* operator new[](std::size_t bytes) {
   return grid_path_planner::nodes::newArray(bytes);
 }
 
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept {
+  try {
+    return grid_path_planner::nodes::newArray(bytes);
+  } catch (...) {
+    return nullptr;
+  }
+}
+
 void operator delete[](void* memory) noexcept {
   ::operator delete(memory);
 }
 
 void operator delete[](void* memory, std::size_t) noexcept {
+  ::operator delete(memory);
+}
+
+void operator delete[](void* memory, const std::nothrow_t&) noexcept {
   ::operator delete(memory);
 }

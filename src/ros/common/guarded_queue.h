@@ -7,7 +7,8 @@
 // tell it; the log says which, at most once a second. roscpp by itself lets it end the process, a nodelet manager with all
 // that it holds. Between hold() and release() nothing is called: a node's constructor is not met by its
 // own callbacks in another thread. Once removeByID() has returned no callback of that owner runs or begins, unless it was
-// called by one: roscpp's queue may still begin one that another thread had just taken out of it. The queue behind
+// called by one: roscpp's queue may still begin one that another thread had just taken out of it. Where a callback has
+// removed its own owner, a second call does not wait for it. The queue behind
 // does the work and outlives this; callbacks that wait in it may outlive this too. Thread-safe.
 #pragma once
 

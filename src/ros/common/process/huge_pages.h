@@ -12,7 +12,8 @@
 
 namespace grid_path_planner::nodes {
 
-// Blocks of so many bytes and more are mapped one by one (freed_memory.h), so that the advice ends with them.
+// Blocks of so many bytes and more are mapped one by one (freed_memory.h), and the advice ends with them; one that fits
+// into what is free of the heap is taken from there, and the advice stays with that part of it.
 constexpr std::size_t kLargeBlock = std::size_t{8} << 20;
 
 // Does nothing to smaller ones. Only for memory that will be written to from end to end: else more of it is taken.
