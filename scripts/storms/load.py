@@ -29,7 +29,7 @@ from .silence import Silence, quantile
 MOST_MB = 2500.0
 PROMPT = 0.5          # s that 95 % of the answers take at most
 CALM = 1.0            # s, once the load is over
-ENOUGH = 0.8          # of the rates of maps and goals
+ENOUGH = 0.8          # of the rates of maps and goals, and of the answers past the block
 MOST_AGAIN = 1e-3     # of the answers
 SKY = """<sdf version="1.6"><world name="sky"><model name="far"><static>true</static><pose>0 -500 0 0 0 0</pose><link name="box">
 <collision name="box"><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></world></sdf>"""
@@ -233,9 +233,10 @@ def verdict(answers, most, calm, silent):
     text = "; ".join(told(rate, each) for rate, each in answers.items())
     text += "; after it %.2f s; at most %.0f MB; %s" % (calm, most, silent)
     late = any(quantile(each.seconds, 0.95) > PROMPT or max(each.seconds) > LONGEST_ANSWER for each in answers.values())
-    late = late or any(max(each.across) > LONGEST_ANSWER or moved(each.seen) < ENOUGH for each in answers.values())
+    late = late or any(max(each.across) > LONGEST_ANSWER for each in answers.values())
+    stale = any(moved(each.seen) < ENOUGH for each in answers.values())
     again = any(each.again > max(1.0, MOST_AGAIN * len(each.seconds)) for each in answers.values())
-    if late or again or any(each.failures for each in answers.values()) or calm > CALM or most > MOST_MB:
+    if late or stale or again or any(each.failures for each in answers.values()) or calm > CALM or most > MOST_MB:
         raise SessionFailed(text)
     for rate, each in answers.items():
         for kind, asked in (("maps", rate), ("goals", GOAL_RATE)):

@@ -1,4 +1,4 @@
-// What was seen before, in two of seven ends of a nodelet manager on a busy machine: roscpp ends its services while it holds
+// What was seen before, in the debugger, of a nodelet manager with the address sanitizer on a busy machine: roscpp ends its services while it holds
 // the lock of their list, and GuardedQueue waits for their callbacks; one that had just begun asked that list for the
 // connection of its client, and waited for the lock. Neither SIGINT nor SIGTERM ended the process any more.
 #include <gtest/gtest.h>
