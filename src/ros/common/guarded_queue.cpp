@@ -105,7 +105,8 @@ void GuardedQueue::addCallback(const ros::CallbackInterfacePtr& callback, std::u
   queue_.addCallback(guarded, owner);
 }
 
-// The queue behind waits for a callback that runs, which may add another: not under the lock.
+// Not under the lock: a callback that is waited for may add another. roscpp's own queue was not seen to wait, so whoever shuts
+// something down holds no lock that its callbacks take, nor may roscpp (service_caller.cpp).
 void GuardedQueue::removeByID(std::uint64_t owner) {
   std::shared_ptr<CallbackOwner> removed;
   {
