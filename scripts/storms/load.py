@@ -226,8 +226,8 @@ def moved(places):
     return sum(now not in (then, "nowhere") for then, now in zip(places, places[1:])) / max(1, len(places) - 1)
 
 
-def verdict(answers, most, calm, silent):
-    """`answers`: by the rate of the maps. `silent`: of cmd_vel, in words."""
+def verdict(answers, most, calm, silent, held=True):
+    """`answers`: by the rate of the maps. `silent`: of cmd_vel, in words, and whether its laws held."""
     if not all(each.seconds and each.across for each in answers.values()):
         raise SessionFailed("no answer under load")
     text = "; ".join(told(rate, each) for rate, each in answers.items())
@@ -236,7 +236,7 @@ def verdict(answers, most, calm, silent):
     late = late or any(max(each.across) > LONGEST_ANSWER for each in answers.values())
     stale = any(moved(each.seen) < ENOUGH for each in answers.values())
     again = any(each.again > max(1.0, MOST_AGAIN * len(each.seconds)) for each in answers.values())
-    if late or stale or again or any(each.failures for each in answers.values()) or calm > CALM or most > MOST_MB:
+    if not held or late or stale or again or any(each.failures for each in answers.values()) or calm > CALM or most > MOST_MB:
         raise SessionFailed(text)
     for rate, each in answers.items():
         for kind, asked in (("maps", rate), ("goals", GOAL_RATE)):
@@ -249,11 +249,12 @@ def verdict(answers, most, calm, silent):
 
 
 def judged(silence, nodes):
+    """In words, and whether it held."""
     ended = ", %d drives ended meanwhile" % nodes.drives_ended()
     try:
-        return silence.verdict() + ended
+        return silence.verdict() + ended, True
     except SessionFailed as reason:
-        raise SessionFailed(str(reason) + ended) from reason
+        return "failed: %s%s" % (reason, ended), False
 
 
 def storm(minutes, folder, given, name):
@@ -278,6 +279,6 @@ def storm(minutes, folder, given, name):
                     most = max(most, megabytes)
                 time.sleep(2.0)
                 calm, _ = prompt_plan()
-                return verdict(answers, most, calm, judged(silence, nodes))
+                return verdict(answers, most, calm, *judged(silence, nodes))
         finally:
             nodes.stop()

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace grid_path_planner::path {
 
 using grid::Occupancy, grid::OccupancyGrid, grid::OccupancyThresholds;
 
 namespace {
-
-constexpr std::uint64_t kOnes = 0x0101010101010101;
-constexpr std::uint64_t kSigns = kOnes << 7;
 
 Box boxOf(const CellSpan& columns, const CellSpan& rows) {
   return {Eigen::Vector2d(columns.first, rows.first), Eigen::Vector2d(columns.end, rows.end)};
@@ -124,14 +120,6 @@ int OccupiedCells::nextIn(int row, int column, int end) const {
     }
   }
   return end;
-}
-
-// Not 0 where one of eight cells is occupied, all looked at as one number: adding 128 - threshold to a
-// byte that is not negative sets its sign from the threshold on.
-std::uint64_t OccupiedCells::signs(const std::int8_t* cells) const {
-  std::uint64_t word;
-  std::memcpy(&word, cells, sizeof word);
-  return ((word & ~kSigns) + carry_) & ~word & kSigns;
 }
 
 }  // namespace grid_path_planner::path

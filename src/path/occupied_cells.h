@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "grid_path_planner/grid/occupancy.h"
@@ -39,7 +40,16 @@ class OccupiedCells {
   void lowerInSquare(const Segment& segment, int across, int up, double& least);
   void lowerInRow(const Segment& segment, int row, const CellSpan& square, double& least) const;
   int nextIn(int row, int column, int end) const;
-  std::uint64_t signs(const std::int8_t* cells) const;
+  // Not 0 where one of eight cells is occupied, all looked at as one number: adding 128 - threshold
+  // to a byte that is not negative sets its sign from the threshold on.
+  std::uint64_t signs(const std::int8_t* cells) const {
+    std::uint64_t word;
+    std::memcpy(&word, cells, sizeof word);
+    return ((word & ~kSigns) + carry_) & ~word & kSigns;
+  }
+
+  static constexpr std::uint64_t kOnes = 0x0101010101010101;
+  static constexpr std::uint64_t kSigns = kOnes << 7;
 
   const grid::OccupancyGrid& map_;
   const grid::OccupancyThresholds thresholds_;

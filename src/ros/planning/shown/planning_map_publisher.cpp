@@ -9,7 +9,6 @@ namespace grid_path_planner::nodes {
 
 using costmap::CostChanges;
 using costmap::CostGrid;
-using grid::CellIndex;
 using grid::CellRect;
 using grid::Occupancy;
 using grid::OccupancyGrid;
@@ -27,10 +26,15 @@ class WeightShades {
     shades_[CostGrid::kBlocked] = 100;
   }
 
-  std::int8_t of(CellIndex cell) const {
-    const CostGrid::Weight weight = costs_.weights()[cell];
-    const bool unknown = costs_.classes()[cell] == Occupancy::UNKNOWN;
-    return unknown && weight != CostGrid::kBlocked ? -1 : shades_[weight];
+  // Of `count` cells of a row, from `column` on. Map after map of millions is shown: no index is
+  // checked, cell by cell.
+  void write(int row, int column, int count, std::int8_t* shown) const {
+    const CostGrid::Weight* const weights = costs_.weights().row(row) + column;
+    const Occupancy* const classes = costs_.classes().row(row) + column;
+    for (int i = 0; i < count; ++i)
+      shown[i] = classes[i] == Occupancy::UNKNOWN && weights[i] != CostGrid::kBlocked
+                     ? -1
+                     : shades_[weights[i]];
   }
 
  private:
@@ -44,8 +48,8 @@ nav_msgs::OccupancyGrid planningMapMessage(const CostGrid& costs, const std::str
                                            const ros::Time& stamp) {
   const WeightShades shades(costs);
   OccupancyGrid shown(costs.geometry());
-  for (std::uint32_t i = 0; i < shown.values().size(); ++i)
-    shown[CellIndex(i)] = shades.of(CellIndex(i));
+  for (int row = 0; row < shown.height(); ++row)
+    shades.write(row, 0, shown.width(), shown.row(row));
   return occupancyToMessage(std::move(shown), frame_id, stamp);
 }
 
@@ -57,9 +61,11 @@ std::vector<map_msgs::OccupancyGridUpdate> planningMapUpdates(const CostGrid& co
   std::vector<map_msgs::OccupancyGridUpdate> updates;
   for (const CellRect& rect : cells) {
     updates.push_back(updateOf(rect, frame_id, stamp));
-    for (int row = rect.row; row < rect.row + rect.height; ++row)
-      for (int column = rect.column; column < rect.column + rect.width; ++column)
-        updates.back().data.push_back(shades.of(costs.geometry().index({column, row})));
+    std::vector<std::int8_t>& shown = updates.back().data;
+    shown.resize(static_cast<std::size_t>(rect.width) * rect.height);
+    for (int row = 0; row < rect.height; ++row)
+      shades.write(rect.row + row, rect.column, rect.width,
+                   shown.data() + static_cast<std::size_t>(row) * rect.width);
   }
   return updates;
 }
