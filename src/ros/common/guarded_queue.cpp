@@ -105,8 +105,10 @@ void GuardedQueue::addCallback(const ros::CallbackInterfacePtr& callback, std::u
   queue_.addCallback(guarded, owner);
 }
 
-// Not under the lock: a callback that is waited for may add another. roscpp's own queue was not seen to wait, so whoever shuts
-// something down holds no lock that its callbacks take, nor may roscpp (service_caller.cpp).
+// Not under the lock: a callback that is waited for may add another. roscpp's own queue waits no longer
+// since 2021 (ros_comm, pull request 2121, for those who stop a timer while they hold a lock that its
+// callback takes), so that callbacks outlive what they refer to (its issue 2283). Here it does, so whoever
+// shuts something down holds no such lock, nor may roscpp (service_caller.cpp).
 void GuardedQueue::removeByID(std::uint64_t owner) {
   std::shared_ptr<CallbackOwner> removed;
   {
