@@ -88,6 +88,31 @@ TEST_F(WaitingBytes, OfTransforms) {
   EXPECT_LE(got.size(), kMostOfThem + 1) << "and the one that was at work";
 }
 
+// What was seen before, by reading: roscpp gives the second one of a process what it has unpacked for the first, who had taken
+// its bytes: the nodelet of a manager that was loaded second had no tf, no updates of maps and no clouds.
+TEST_F(WaitingBytes, TwoInOneProcessGetEachMessage) {
+  std::vector<std::string> got[2];
+  ros::Subscriber subscribers[2];
+  for (int i = 0; i < 2; ++i)
+    subscribers[i] = subscribeBounded<actionlib_msgs::GoalID>(
+        nh_, "shared", {kMessages, kMostWaitingBytes},
+        [&got, i](const actionlib_msgs::GoalID& message) { got[i].push_back(message.id); });
+  ros::Publisher publisher = nh_.advertise<actionlib_msgs::GoalID>("shared", kMessages);
+  ASSERT_TRUE(test::waitFor([&] { return publisher.getNumSubscribers() > 0; }));
+  std::vector<std::string> sent;
+  for (std::size_t i = 0; i < kMessages; ++i) {
+    actionlib_msgs::GoalID message;
+    message.id = std::to_string(i);
+    sent.push_back(message.id);
+    publisher.publish(message);
+  }
+  test::waitFor([&] {
+    ros::spinOnce();
+    return got[0].size() == kMessages && got[1].size() == kMessages;
+  });
+  for (const auto& each : got) EXPECT_EQ(each, sent);
+}
+
 // As roscpp has it of a subscription: never two at once, whoever serves the queue.
 TEST_F(WaitingBytes, MessagesAreHandledOneAfterTheOther) {
   constexpr int kSmall = 300;

@@ -99,7 +99,10 @@ class Arrivals : public ros::SubscriptionCallbackHelper {
   void call(ros::SubscriptionCallbackHelperCallParams& given) override {
     const auto arrival = boost::static_pointer_cast<const SerializedArrival>(
         boost::shared_ptr<const void>(given.event.getMessage()));
-    SerializedArrival taken = std::move(const_cast<SerializedArrival&>(*arrival));
+    // Another subscriber of this process is given the same one.
+    SerializedArrival taken = given.event.nonConstWillCopy()
+                                  ? *arrival
+                                  : std::move(const_cast<SerializedArrival&>(*arrival));
     taken.header = given.event.getConnectionHeaderPtr();
     taken.received = given.event.getReceiptTime();
     if (waiting_->add(std::move(taken)))
