@@ -179,7 +179,10 @@ MapChange MapReceiver::use(const MapEvent& event) {
   whole_of_ = sender;
   whole_stamp_ = sent;
   whole_heard_ = now;
-  if (isAwaited(sender) && !is_before) announced_.reset();
+  whole_came_last_ = true;
+  // What another node announced says nothing of this one's maps.
+  if (announced_ && (announced_->publisher != sender || (isAwaited(sender) && !is_before)))
+    announced_.reset();
   if (has_lost) return change;
   until_asked_again_ = kAnswer;
   std::lock_guard<std::mutex> lock(mutex_);
@@ -244,17 +247,22 @@ void MapReceiver::askForAWholeMap() {
 
 void MapReceiver::onUpdate(const UpdateEvent& event) {
   const map_msgs::OccupancyGridUpdate& message = *event.getConstMessage();
-  const std::uint32_t missed = sequence_.missed(event.getPublisherName(), message.header.seq);
+  const std::string publisher = event.getPublisherName();
+  const auto [missed, began_again] = sequence_.note(publisher, message.header.seq);
   if (missed > 0 && latest().grid)
     noteLoss(std::to_string(missed) + " updates of the map were lost",
              std::max(latest().stamp, message.header.stamp));
   else if (!lost().empty())
     askForAWholeMap();
+  if (publisher == latest().publisher) {
+    if (began_again && !whole_came_last_) awaitMapOfRestarted(publisher);
+    whole_came_last_ = false;
+  }
   if (isAnnouncement(message)) return noteAnnouncement(event);
   if (!hasNoCells(message)) return noteUpdate(event);
   {
     std::lock_guard<std::mutex> lock(mutex_);
-    heartbeat_ = {message.header.stamp, Clock::now(), event.getPublisherName()};
+    heartbeat_ = {message.header.stamp, Clock::now(), publisher};
   }
   on_heartbeat_();
 }
@@ -267,6 +275,14 @@ void MapReceiver::noteAnnouncement(const UpdateEvent& event) {
   if (latest().grid && latest().publisher != publisher) return;
   const bool came = publisher == whole_of_ && stamp <= whole_stamp_ && whole_heard_ <= now;
   if (!came && !stamp.isZero()) announced_ = {publisher, stamp, now, Clock::now()};
+}
+
+// It may lie elsewhere than the one of before, and comes over a connection of its own: as if announced, but later than that
+// one, since its stamp is not known.
+void MapReceiver::awaitMapOfRestarted(const std::string& publisher) {
+  ros::Time later = whole_stamp_;
+  ++later.nsec;
+  announced_ = {publisher, later, ros::Time::now(), Clock::now()};
 }
 
 // But not where ROS time went back meanwhile.

@@ -118,6 +118,7 @@ class MapReceiver {
   // Whether it was announced that `publisher` sends a map of another place or size, which has not come.
   bool isAwaited(const std::string& publisher) const;
   void noteAnnouncement(const UpdateEvent& event);
+  void awaitMapOfRestarted(const std::string& publisher);
   void noteUpdate(const UpdateEvent& event);
   // Of what had come by `at`.
   void noteLoss(const std::string& what, const ros::Time& at);
@@ -152,6 +153,7 @@ class MapReceiver {
   std::optional<Announced> announced_;  // a map that has not come
   std::string whole_of_;                // publisher of the last whole map
   ros::Time whole_stamp_, whole_heard_;
+  bool whole_came_last_ = false;  // after the last update of its publisher
   std::shared_ptr<MasterWatch> master_;
   RecentUpdates recent_;
   ros::Time lost_at_;  // a whole map from before that lacks what was lost, too

@@ -132,6 +132,36 @@ TEST_F(MapReceiverTest, AMapThatCameBeforeItsAnnouncementIsNotAwaited) {
   EXPECT_EQ(values(), mapAt(0.0, {"#...#"}, 0.0).data);
 }
 
+// What was seen before, by reading: the first map of a publisher that was restarted is not announced, so that an update which
+// overtook it was laid into the map of before.
+TEST_F(MapReceiverTest, AnUpdateOfARestartedPublisherWaitsForItsMap) {
+  const auto before = firstMap(5.0);
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(isTaken());
+  number_ = 0;
+  send(cellAt(3, 100, 1.0));
+  ASSERT_TRUE(isTaken());
+  EXPECT_EQ(values(), before.data);
+  maps_.publish(mapAt(-4.0, {"........#"}, 2.0));
+  EXPECT_TRUE(comes([&] { return values() == mapAt(-4.0, {"...#....#"}, 0.0).data; }));
+  send(cellAt(0, 100, 0.5));
+  ASSERT_TRUE(isTaken());
+  EXPECT_EQ(values(), mapAt(-4.0, {"#..#....#"}, 0.0).data) << "what comes then is laid at once";
+  EXPECT_EQ(receiver_.lost(), "");
+}
+
+TEST_F(MapReceiverTest, ARestartedPublisherWhoseMapCameFirstIsNotWaitedFor) {
+  firstMap(5.0);
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(isTaken());
+  const auto grown = mapAt(-4.0, {"........#"}, 2.0);
+  maps_.publish(grown);
+  ASSERT_TRUE(hasCome(grown));
+  number_ = 0;
+  send(cellAt(0, 100, 1.0));
+  ASSERT_TRUE(isTaken());
+  EXPECT_EQ(values(), mapAt(-4.0, {"#.......#"}, 0.0).data);
+  EXPECT_EQ(receiver_.lost(), "");
+}
+
 TEST_F(MapReceiverTest, AnAnnouncedMapThatDoesNotComeIsLost) {
   firstMap(5.0);
   send(announcementOf(mapAt(-4.0, {"........#"}, 3.0)));

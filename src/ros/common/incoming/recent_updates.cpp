@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/clock.h"
 #include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
 namespace {
 
+constexpr double kMostAheadOfNow = 10.0;  // s
 constexpr std::size_t kMostBytes = 16'000'000, kMostUpdates = 1000;
 
 bool isValid(const map_msgs::OccupancyGridUpdate& update) {
@@ -37,7 +39,8 @@ void apply(const map_msgs::OccupancyGridUpdate& update, nav_msgs::OccupancyGrid&
 void RecentUpdates::keep(const std::string& publisher, const Update& update,
                          const ros::Time& now) noexcept {
   try {
-    if (!isValid(*update)) return;
+    if (secondsBetween(now, update->header.stamp) > kMostAheadOfNow || !isValid(*update)) return;
+    forgetLaterThan(publisher, update->header.stamp);
     kept_.push_back({publisher, update, now});
     bytes_ += update->data.size();
   } catch (...) {  // no memory
@@ -45,6 +48,20 @@ void RecentUpdates::keep(const std::string& publisher, const Update& update,
     return;
   }
   while (bytes_ > kMostBytes || kept_.size() > kMostUpdates) forgetTheOldest();
+}
+
+// Its clock was set back: those would be laid upon maps that were sent after them.
+void RecentUpdates::forgetLaterThan(const std::string& publisher, const ros::Time& stamp) {
+  kept_.erase(
+      std::remove_if(kept_.begin(), kept_.end(),
+                     [&](const Kept& kept) {
+                       if (kept.publisher != publisher || kept.update->header.stamp <= stamp)
+                         return false;
+                       noteForgotten(kept.update, kept.came);
+                       bytes_ -= kept.update->data.size();
+                       return true;
+                     }),
+      kept_.end());
 }
 
 void RecentUpdates::forgetTheOldest() {

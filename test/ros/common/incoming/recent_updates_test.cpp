@@ -49,6 +49,29 @@ TEST(RecentUpdates, AreThoseOfThePublisherThatAreNewerThanTheMap) {
   EXPECT_TRUE(recent.since("/b", ros::Time(0.0), kNow).empty()) << "of another publisher's map";
 }
 
+// What was seen before, by reading: an update whose stamp was hours ahead was laid upon every later map of its publisher, also
+// where these had an obstacle; once it was forgotten, every map lacked it.
+TEST(RecentUpdates, OneFromFarAheadIsNotKept) {
+  RecentUpdates recent;
+  for (const double stamp : {110.1, 7200.0, 4294967295.0})
+    recent.keep("/a", updateAt(stamp, 1, 0), kNow);
+  EXPECT_TRUE(recent.since("/a", ros::Time(50.0), kNow).empty());
+  for (int i = 0; i < 1001; ++i) recent.keep("/a", updateAt(60.0, i, 0), kNow);
+  EXPECT_TRUE(recent.complete(ros::Time(60.0)));
+}
+
+// As where its machine's clock is set back: those of before would be laid upon maps that were sent after them.
+TEST(RecentUpdates, AreForgottenWhereTheClockOfTheirPublisherWentBack) {
+  RecentUpdates recent;
+  recent.keep("/b", updateAt(105.0, 9, 0), kNow);
+  recent.keep("/a", updateAt(104.0, 1, 0), kNow);
+  recent.keep("/a", updateAt(105.0, 2, 0), kNow);
+  recent.keep("/a", updateAt(101.0, 3, 100), kNow);
+  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(100.5), kNow)), std::vector<int>({3}));
+  EXPECT_EQ(columnsOf(recent.since("/b", ros::Time(100.5), kNow)), std::vector<int>({9}));
+  EXPECT_FALSE(recent.complete(ros::Time(100.5)));
+}
+
 TEST(RecentUpdates, AreCompleteUntilTheOldestAreForgotten) {
   RecentUpdates recent;
   for (int i = 0; i < 1000; ++i) recent.keep("/a", updateAt(1.0 + 0.01 * i, i, 0), kNow);
