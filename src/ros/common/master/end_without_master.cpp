@@ -31,6 +31,14 @@ void handleInterruption() {
   ::sigaction(kInterruption, &action, nullptr);
 }
 
+bool masterAnswers() noexcept {
+  try {
+    return answersXmlRpc(masterUri(), kPatienceOfMaster);
+  } catch (...) {
+    return true;
+  }
+}
+
 }  // namespace
 
 EndWithoutMaster::EndWithoutMaster(std::string name, std::function<std::string()> asked)
@@ -53,12 +61,21 @@ bool EndWithoutMaster::isOverWithin(double seconds) {
   return over_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return is_over_; });
 }
 
+// Without memory for the reason there is one, and without memory to ask the master it is not to blame.
+bool EndWithoutMaster::isAsked() const noexcept {
+  try {
+    return !asked_().empty();
+  } catch (...) {
+    return true;
+  }
+}
+
 void EndWithoutMaster::run() {
-  while (asked_().empty())
+  while (!isAsked())
     if (isOverWithin(kPeriod)) return;
   if (isOverWithin(kPatience)) return;
   handleInterruption();
-  for (int i = 0; unfinished > 0 || answersXmlRpc(masterUri(), kPatienceOfMaster); ++i) {
+  for (int i = 0; unfinished > 0 || masterAnswers(); ++i) {
     if (unfinished == 0 && i % kInterruptedEach == 0) ::pthread_kill(main_thread_, kInterruption);
     if (isOverWithin(kPeriod)) return;
   }

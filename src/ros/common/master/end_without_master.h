@@ -34,6 +34,7 @@ class EndWithoutMaster {
 
  private:
   void run();
+  bool isAsked() const noexcept;
   bool isOverWithin(double seconds);
 
   const std::string name_;

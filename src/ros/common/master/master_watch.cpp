@@ -112,6 +112,7 @@ void MasterWatch::ask() {
   if (isOver()) return;
   const std::optional<bool> knows = masterKnows(ros::this_node::getName(), kMasterPatience);
   if (isOver() || ros::isShuttingDown()) return;  // its names are gone because they were given back
+  if (!restarted && known_ && !owes_names_ && knows == false) ++restarts_;  // by the same number
   owes_names_ = owes_names_ || restarted || (known_ && knows == false);
   if (owes_names_) owes_names_ = !registersAgain();
   known_ = known_ || knows == true;

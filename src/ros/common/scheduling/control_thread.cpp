@@ -9,6 +9,7 @@
 #include <new>
 #include <utility>
 
+#include "ros/common/guarded_queue.h"
 #include "ros/common/scheduling/cpu_share.h"
 #include "ros/common/scheduling/realtime_priority.h"
 
@@ -68,7 +69,11 @@ void ControlThread::start(double rate, int priority) {
 
 void ControlThread::stop() {
   done_ = true;
-  post([] {});  // it may wait for most of a period
+  try {
+    post([] {});  // it may wait for most of a period
+  } catch (...) {
+    tellGivenUp("Waking the control thread");
+  }
   if (thread_.joinable()) thread_.join();
 }
 
