@@ -17,6 +17,8 @@ using path::Path;
 
 namespace {
 
+constexpr double kSamePlace = 1e-6;  // m
+
 FootprintObstacles obstaclesOf(const OccupancyGrid& map, const ClearanceLimits& limits) {
   FootprintObstacles obstacles;
   obstacles.outside = limits.stop_at_unknown;
@@ -40,15 +42,23 @@ Obstruction obstructionAt(const OccupancyGrid& map, const ClearanceLimits& limit
   return {occupied ? Obstruction::Kind::OCCUPIED : Obstruction::Kind::UNKNOWN, at};
 }
 
+// From the second point on, without those that are where the one before is: rounding has no direction.
+Path withDirections(const std::vector<Eigen::Vector3d>& ahead) {
+  Path path;
+  for (std::size_t i = 1; i < ahead.size(); ++i)
+    if (path.empty() || (ahead[i] - path.poses.back().position).head<2>().norm() > kSamePlace)
+      path.poses.push_back({ahead[i], 0.0});
+  return path;
+}
+
 }  // namespace
 
 std::optional<Obstruction> firstFootprintContact(const OccupancyGrid& map,
                                                  const ClearanceLimits& limits,
                                                  const Footprint& footprint,
                                                  const std::vector<Eigen::Vector3d>& ahead) {
-  if (ahead.size() < 3) return std::nullopt;
-  Path path;
-  for (std::size_t i = 1; i < ahead.size(); ++i) path.poses.push_back({ahead[i], 0.0});
+  const Path path = withDirections(ahead);
+  if (path.poses.size() < 2) return std::nullopt;
   const FootprintSweep sweep(footprint, map.geometry(), obstaclesOf(map, limits));
   for (const Motion& motion : motionsAlong(path, std::nullopt, std::nullopt, HeadingMode::NONE))
     if (const auto contact = sweep.first(motion, StopToken()))

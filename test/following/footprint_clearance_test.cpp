@@ -58,5 +58,16 @@ TEST(FootprintClearance, TheReturnToThePathHasNoHeading) {
   EXPECT_FALSE(contactOn(kLane, {}));
 }
 
+// What was seen before, by reading: a millimetre beyond its end all that is ahead of the vehicle is that end, where the
+// footprint was laid looking along x. In a lane that it fits in it was blocked for good.
+TEST(FootprintClearance, TheEndOfAPathHasNoHeading) {
+  const std::vector<std::string> lane = {"#.#", "#.#", "#.#", "#.#"};
+  const Eigen::Vector3d end(1.5, 2.0, 0);
+  EXPECT_FALSE(contactOn(lane, {{1.5, 2.001, 0}, end, end}));
+  EXPECT_FALSE(contactOn(lane, {{1.5, 2.001, 0}, end, {1.5 + 1e-15, 2.0, 0}, end}));
+  EXPECT_FALSE(contactOn(lane, {{1.5, 1.5, 0}, {1.5, 1.5, 0}, end, {1.5 + 1e-15, 2.0, 0}}));
+  EXPECT_TRUE(contactOn(lane, {{1.5, 1.5, 0}, {1.5, 1.5, 0}, {1.6, 1.5, 0}})) << "across it";
+}
+
 }  // namespace
 }  // namespace grid_path_planner::following

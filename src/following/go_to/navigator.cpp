@@ -349,13 +349,18 @@ void Navigator::drive(Path path) {
 
 void Navigator::stopDrive() {
   blocked_since_.reset();
-  if (std::exchange(drive_active_, false)) orders_.push_back({Kind::STOP});
+  if (!drive_active_) return;
+  orders_.push_back(
+      {Kind::STOP});  // first: without memory the next cancel finds the drive still active
+  drive_active_ = false;
 }
 
 void Navigator::forgetPlan() {
   plan_again_at_.reset();
   arrival_note_.clear();
-  if (std::exchange(plan_pending_, false)) orders_.push_back({Kind::FORGET_PLAN});
+  if (!plan_pending_) return;
+  orders_.push_back({Kind::FORGET_PLAN});
+  plan_pending_ = false;
 }
 
 void Navigator::finish(Kind kind, const std::string& sentence, double now) {

@@ -1,7 +1,9 @@
 #include "ros/avoidance/flight_hold.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "ros/common/guarded_queue.h"
 #include "ros/common/master/master_diagnostics.h"
 
 namespace grid_path_planner::nodes {
@@ -21,22 +23,34 @@ void FlightHold::stop(bool is) {
 }
 
 void FlightHold::manual(bool is) {
-  std::optional<unsigned> handovers;
   {
     const Lock lock(mutex_);
-    if (joystick_.hear(is)) handovers = handOver();
+    if (joystick_.hear(is)) handOver();
     paused_ = paused_ || (is && flies_);
   }
-  tell(handovers);
+  tellHandovers();
 }
 
 // A flight is paused, and resumed by hand.
-std::optional<unsigned> FlightHold::handOver() {
-  return flies_ ? std::nullopt : std::make_optional(++handovers_);
+void FlightHold::handOver() {
+  if (!flies_) ++handovers_;
 }
 
-void FlightHold::tell(std::optional<unsigned> handovers) const {
-  if (handovers) on_handover_(*handovers);
+// Again with the next notice() where there was no memory: flights would be ended as given before a handover for ever.
+void FlightHold::tellHandovers() noexcept {
+  unsigned handovers;
+  {
+    const Lock lock(mutex_);
+    if (handovers_told_ == handovers_) return;
+    handovers = handovers_;
+  }
+  try {
+    on_handover_(handovers);
+  } catch (...) {
+    return tellGivenUp("What follows a handover");
+  }
+  const Lock lock(mutex_);
+  handovers_told_ = std::max(handovers_told_, handovers);
 }
 
 bool FlightHold::stopped() const {
@@ -75,21 +89,21 @@ bool FlightHold::endPause() {
 bool FlightHold::begin(unsigned handovers) {
   const Lock lock(mutex_);
   flies_ = true;
+  paused_ = paused_ || joystick_.commands();  // who may let it go before the next notice()
   return handovers == handovers_;
 }
 
 bool FlightHold::notice(const ros::Time& now, bool flies) {
-  std::optional<unsigned> handovers;
   bool yields = false;
   {
     const Lock lock(mutex_);
     if (std::exchange(now_, now) != now) moved_ = Clock::now();
     flies_ = flies;
-    if (joystick_.expire()) handovers = handOver();
+    if (joystick_.expire()) handOver();
     paused_ = paused_ || (flies && joystick_.commands());
     yields = !std::exchange(noticed_, paused_) && paused_;
   }
-  tell(handovers);
+  tellHandovers();
   return yields;
 }
 

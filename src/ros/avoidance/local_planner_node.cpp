@@ -132,13 +132,14 @@ void LocalPlannerNode::startLog(const NodeFiles& files) {
 FlightAction::Hands LocalPlannerNode::hands() {
   return {[this](const path::Path& path, bool along, unsigned handovers) {
             const path::Path flown = inMap(path);
+            noticeTime();
             fly(flown, along, handovers);
             given_goals_.endAllUntil(ros::Time::now());
             return flown;
           },
           [this] { return handovers_; },
           [this](const std::string& reason) {
-            given_goals_.endAllUntil(ros::Time::now());
+            endGoalsUntilNow();
             if (flies_) pilot_.cancel(reason);
           },
           [this](const nav_msgs::Path& path) { return pathIn(path); }};
@@ -148,11 +149,17 @@ FlightAction::Hands LocalPlannerNode::hands() {
 // given before that.
 void LocalPlannerNode::noteHandover(unsigned handovers) {
   const auto note = [this, handovers] {
-    handovers_ = handovers;
-    given_goals_.endAllUntil(ros::Time::now());
+    handovers_ = std::max(handovers_, handovers);
+    endGoalsUntilNow();
     action_->cancelReading(kTakenOver);
   };
   nh_.getCallbackQueue()->addCallback(callbackOf(note), reinterpret_cast<std::uint64_t>(this));
+}
+
+// A time of a moment, far ahead, is known to have gone back when the next one is noticed.
+void LocalPlannerNode::endGoalsUntilNow() {
+  noticeTime();
+  given_goals_.endAllUntil(ros::Time::now());
 }
 
 void LocalPlannerNode::subscribeClouds() {
@@ -199,7 +206,7 @@ void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
 // Whoever plans for this flight, or is about to send another, hears of it too.
 FlightHold::Answer LocalPlannerNode::cancelByHand() {
   cancelled_publisher_.publish(std_msgs::Empty());
-  given_goals_.endAllUntil(ros::Time::now());
+  endGoalsUntilNow();
   const bool was_paused = hold_.endPause();
   const bool was_read = action_->cancelReading("cancelled by ~cancel while its file was read");
   if (flies_) pilot_.cancel("asked for by ~cancel");
@@ -278,7 +285,7 @@ void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
 void LocalPlannerNode::onPath(const nav_msgs::Path& message) {
   if (action_->isActive()) {
     ROS_WARN("A path is not flown: a goal of the action navigate_path is");
-    given_goals_.endAllUntil(ros::Time::now());
+    endGoalsUntilNow();
     return;
   }
   if (message.poses.empty()) {

@@ -100,6 +100,7 @@ class LocalPlannerNode {
   void startLog(const NodeFiles& files);
   FlightAction::Hands hands();
   void noteHandover(unsigned handovers);
+  void endGoalsUntilNow();
   FlightHold::Answer cancelByHand();
   void offerServices(ros::NodeHandle& private_nh);
   void use(LocalPlannerOptions options);

@@ -267,6 +267,16 @@ bool FrameLookup::movesWith(const std::string& vehicle, const std::string& frame
   return false;
 }
 
+void FrameLookup::checkNotOlder(const std::string& to, const std::string& from,
+                                const ros::Time& now, double max_age) const {
+  if (from == to) return;
+  const ros::Time stamp = transform(to, from).header.stamp;
+  const double age = stamp.isZero() ? 0.0 : secondsBetween(stamp, now);
+  if (age > max_age)
+    throw TransformError("the transform from " + from + " to " + to + " is " + std::to_string(age) +
+                         " s old");
+}
+
 std::vector<Eigen::Vector3d> FrameLookup::pointsIn(const std::string& to, const std::string& from,
                                                    std::vector<Eigen::Vector3d> points) const {
   if (from == to) return points;

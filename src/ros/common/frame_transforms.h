@@ -79,6 +79,11 @@ class FrameLookup {
   // The frames by which tf leads from one to the other, both and commonFrame() included; none where nothing joins them.
   std::vector<std::string> framesBetween(const std::string& one, const std::string& other) const;
 
+  // Throws TransformError where what tf has between the two frames is older than `max_age` seconds at `now`. A static
+  // transform, and one stamped ahead, as localization does, are not.
+  void checkNotOlder(const std::string& to, const std::string& from, const ros::Time& now,
+                     double max_age) const;
+
   // Points of the frame `from` in the frame `to`. Throws TransformError.
   std::vector<Eigen::Vector3d> pointsIn(const std::string& to, const std::string& from,
                                         std::vector<Eigen::Vector3d> points) const;

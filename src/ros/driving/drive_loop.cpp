@@ -9,6 +9,7 @@
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/guarded_queue.h"
 #include "ros/common/incoming/claimed_lengths.h"
 #include "ros/common/master/system_state.h"
 #include "ros/common/velocity_message.h"
@@ -177,6 +178,7 @@ void DriveLoop::tick() {
   noticeTimeJump(now);
   if (now != now_) moved_ = Clock::now();
   now_ = now;
+  tellHandovers();
   yieldToJoystick();
   follow(now);
   report(now);
@@ -234,7 +236,9 @@ void DriveLoop::findVehicle(const ros::Time& now, FollowInput& input) const {
 std::vector<Eigen::Vector3d> DriveLoop::inFrame(const std::string& frame,
                                                 const std::vector<Eigen::Vector3d>& points) const {
   const std::string& path_frame = follower_.path().frame_id;
-  return transforms_.pointsIn(frameInMap(frame, options_.map_frame), path_frame, points);
+  const std::string own_frame = frameInMap(frame, options_.map_frame);
+  transforms_.checkNotOlder(own_frame, path_frame, now_, options_.tf_timeout);
+  return transforms_.pointsIn(own_frame, path_frame, points);
 }
 
 std::string DriveLoop::whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const {
@@ -269,7 +273,19 @@ void DriveLoop::onManual(const std_msgs::Bool& message) {
 
 // A drive that is paused is resumed by hand.
 void DriveLoop::noteHandover() {
-  if (!follower_.active()) listener_.on_handover(++handovers_);
+  if (!follower_.active()) ++handovers_;
+  tellHandovers();
+}
+
+// Again with the next tick where there was no memory: drives would be ended as given before a handover for ever.
+void DriveLoop::tellHandovers() noexcept {
+  if (handovers_told_ == handovers_) return;
+  try {
+    listener_.on_handover(handovers_);
+    handovers_told_ = handovers_;
+  } catch (...) {
+    tellGivenUp("What follows a handover");
+  }
 }
 
 void DriveLoop::onStop(const std_msgs::Bool& message) {

@@ -5,6 +5,7 @@
 #include <ros/console.h>
 #include <std_msgs/Empty.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -123,7 +124,8 @@ DriveLoop::Listener NavigatePathNode::listener() {
   return {[this] { callLater([this] { takeReports(); }); },
           [this](unsigned handovers) {
             callLater([this, handovers] {
-              handovers_ = handovers;
+              watchClock();
+              handovers_ = std::max(handovers_, handovers);
               endWhatIsNotDriven(kTakenOver);
             });
           }};
@@ -266,6 +268,7 @@ void NavigatePathNode::onGoal() {
 }
 
 void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join, unsigned handovers) {
+  watchClock();
   try {
     drive(read(), join, handovers);
     given_goals_.endAllUntil(ros::Time::now());
@@ -322,6 +325,7 @@ NavigatePathNode::Answer NavigatePathNode::cancelByHand() {
 
 // Whether there was a goal whose file is still read.
 bool NavigatePathNode::endDrivesUntilNow(const std::string& reason) {
+  watchClock();  // that a time of a moment, far ahead, is known to have gone back
   takeReports();
   return endWhatIsNotDriven(reason);
 }

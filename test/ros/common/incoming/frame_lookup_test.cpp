@@ -45,6 +45,26 @@ void join(FrameLookup& lookup, const std::string& parent, const std::string& chi
   lookup.buffer().setTransform(transform, "test", true);
 }
 
+// What was seen before, by reading: a path in odom was compared with a map by a transform of any age.
+TEST(FrameLookup, TellsAnOldTransformFromAStaticOneAndOneStampedAhead) {
+  FrameLookup lookup;
+  join(lookup, "earth", "map");
+  geometry_msgs::TransformStamped moving;
+  moving.header.stamp = ros::Time(10, 0);
+  moving.header.frame_id = "map";
+  moving.child_frame_id = "odom";
+  moving.transform.rotation.w = 1.0;
+  lookup.buffer().setTransform(moving, "test");
+  EXPECT_NO_THROW(lookup.checkNotOlder("map", "odom", ros::Time(10.4), 0.5));
+  EXPECT_NO_THROW(lookup.checkNotOlder("map", "odom", ros::Time(8.0), 0.5));
+  EXPECT_NO_THROW(lookup.checkNotOlder("odom", "odom", ros::Time(1000.0), 0.5));
+  EXPECT_NO_THROW(lookup.checkNotOlder("earth", "map", ros::Time(1000.0), 0.5));
+  for (const auto& [to, from] : {std::pair("map", "odom"), std::pair("odom", "earth")})
+    for (const double now : {10.6, 4294967295.0})
+      EXPECT_THROW(lookup.checkNotOlder(to, from, ros::Time(now), 0.5), TransformError) << now;
+  EXPECT_THROW(lookup.checkNotOlder("map", "nowhere", ros::Time(10.0), 0.5), TransformError);
+}
+
 // earth -> map -> odom -> base_link -> imu_link, earth -> ship -> usbl
 TEST(FrameLookup, TellsTheFramesByWhichOneLeadsToAnother) {
   FrameLookup lookup;
