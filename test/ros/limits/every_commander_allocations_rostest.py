@@ -63,7 +63,7 @@ class EveryCommanderAllocations(CommanderTest):
     def failures_of_a_halt(self, node, switch):
         """A joystick that is let go is not fed on."""
         self.assertTrue(self.moves(node), "%s: %s" % (node, self.said(node)))
-        node.ceased.add("joy")
+        node.cease("joy")
         halt = lambda: node.table.halt(node)
         with open(switch, "w"):
             end = time.monotonic() + SHORT_OF_MEMORY

@@ -111,6 +111,7 @@ class RunningCommander(RunningNode):
     def __init__(self, name, kind, clock, folder, stopped=False, master=None, arguments=(), environment=None):
         from std_msgs.msg import Bool
         self.table, self.ceased, self.commands = COMMANDERS[name], set(), []
+        self.feeding = threading.Lock()
         self.velocities = {topic for topic, kind in NODES[name].outputs.items() if kind in VELOCITIES}
         self.environment = dict(environment or os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
         if master:
@@ -130,11 +131,17 @@ class RunningCommander(RunningNode):
             tick += 1
             try:
                 for name, send in self.table.feeds.items():
-                    if name not in self.ceased:
-                        send(self, tick)
+                    with self.feeding:
+                        if name not in self.ceased:
+                            send(self, tick)
             except rospy.ROSException:
                 return  # shut down meanwhile
             time.sleep(TICK)
+
+    def cease(self, feed):
+        """None of it is sent once this returns."""
+        with self.feeding:
+            self.ceased.add(feed)
 
     def keep(self, message, topic):
         if topic in self.velocities:

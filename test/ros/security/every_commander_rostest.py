@@ -144,7 +144,7 @@ class EveryCommander(CommanderTest):
         for name, row in COMMANDERS.items():
             node = self.moving(name)
             for feed in row.feeds:
-                node.ceased.add(feed)
+                node.cease(feed)
                 self.assertTrue(self.stands(node), "%s without %s" % (name, feed))
                 node.ceased.clear()
                 self.assertTrue(self.moves(node), "%s with %s again" % (name, feed))
@@ -158,7 +158,7 @@ class EveryCommander(CommanderTest):
             for x in FAR:
                 node.forget("avoidance_status")
                 told = self.times_said(node, row.far)
-                node.ceased.add("tf")
+                node.cease("tf")
                 begin = time.monotonic()
                 self.assertTrue(self.stands(node, lambda x=x: node.send("tf", far_transforms(node, x)), TICK), name)
                 self.assertTrue(node.stood_from_one_on(begin), "%s: a motion after the first zero" % name)
