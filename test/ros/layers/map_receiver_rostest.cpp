@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/common/guarded_queue.h"
 #include "ros/common/outgoing/map_announcement.h"
 #include "ros/common/outgoing/map_topic.h"
 #include "ros/support/latest.h"
@@ -221,6 +222,9 @@ TEST_F(MapReceiverTest, AMapThatIsRefusedTakesNothingWithIt) {
 
 TEST(MapTopic, AnnouncesAMapOfAnotherPlace) {
   ros::NodeHandle nh("announced");
+  GuardedQueue queue(
+      *ros::getGlobalCallbackQueue());  // as nodes have: it waits for what still runs
+  nh.setCallbackQueue(&queue);
   MapTopic topic(nh, "map", true, [] {});
   const test::Latest<map_msgs::OccupancyGridUpdate> updates(nh, "map_updates");
   ASSERT_TRUE(test::waitFor([&] { return updates.connected(); }));

@@ -95,7 +95,7 @@ TEST_F(WaitingBytes, TwoInOneProcessGetEachMessage) {
   ros::Subscriber subscribers[2];
   for (int i = 0; i < 2; ++i)
     subscribers[i] = subscribeBounded<actionlib_msgs::GoalID>(
-        nh_, "shared", {kMessages, kMostWaitingBytes},
+        busy_, "shared", {kMessages, kMostWaitingBytes},
         [&got, i](const actionlib_msgs::GoalID& message) { got[i].push_back(message.id); });
   ros::Publisher publisher = nh_.advertise<actionlib_msgs::GoalID>("shared", kMessages);
   ASSERT_TRUE(test::waitFor([&] { return publisher.getNumSubscribers() > 0; }));
@@ -107,7 +107,7 @@ TEST_F(WaitingBytes, TwoInOneProcessGetEachMessage) {
     publisher.publish(message);
   }
   test::waitFor([&] {
-    ros::spinOnce();
+    queue_.callAvailable();
     return got[0].size() == kMessages && got[1].size() == kMessages;
   });
   for (const auto& each : got) EXPECT_EQ(each, sent);
