@@ -337,21 +337,20 @@ void Navigator::recoveryDriveEnded(const std::string& status, const std::string&
   plan(0.0, now);
 }
 
-// Orders
+// Orders: given before they are noted, so that without memory the next call finds what is still to do.
 
 void Navigator::drive(Path path) {
+  orders_.push_back({Kind::DRIVE, "", 0.0, std::move(path)});
   drive_active_ = true;
   drive_state_.reset();
   if (state_ != NavigatorState::DRIVING) blocked_since_.reset();
   free_since_.reset();
-  orders_.push_back({Kind::DRIVE, "", 0.0, std::move(path)});
 }
 
 void Navigator::stopDrive() {
   blocked_since_.reset();
   if (!drive_active_) return;
-  orders_.push_back(
-      {Kind::STOP});  // first: without memory the next cancel finds the drive still active
+  orders_.push_back({Kind::STOP});
   drive_active_ = false;
 }
 

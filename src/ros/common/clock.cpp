@@ -12,13 +12,6 @@ using base::Stopped;
 using base::StopReason;
 using base::StopToken;
 
-namespace {
-
-// s: two machines, and two nodes at many times real time of which one has waited for a processor.
-constexpr double kMostAhead = 10.0;
-
-}  // namespace
-
 bool ClockWatch::hasTime() {
   if (ros::Time::isValid()) return true;
   const auto now = std::chrono::steady_clock::now();

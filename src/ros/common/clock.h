@@ -41,6 +41,10 @@ class LateClock {
   std::chrono::steady_clock::time_point next_wait_{};
 };
 
+// s, that clocks of nodes may differ by: two machines, and two nodes at many times real time of which one has waited for a
+// processor.
+constexpr double kMostAhead = 10.0;
+
 // From `from` to `to` in seconds. roscpp's difference of times throws beyond 2^31 s, as a stamp from
 // 2106 or, from 2038 on, one of 0 has it.
 double secondsBetween(const ros::Time& from, const ros::Time& to);

@@ -89,7 +89,9 @@ void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
       base::OptionInfo{"Frame of the vehicle, whose pose tf gives and in which it is commanded", ""}
           .under("The vehicle's pose"));
   visit("tf_timeout", o.tf_timeout,
-        base::OptionInfo{"The vehicle stops while its newest pose is older", "s", 0.01, 3600.0});
+        base::OptionInfo{"The vehicle stops while its newest pose is older, or what joins its "
+                         "path's frame to the map's",
+                         "s", 0.01, 3600.0});
   visit(
       "control_rate", o.control_rate,
       base::OptionInfo{"How often the velocity is computed, by the wall clock; simulated time that "

@@ -4,6 +4,7 @@
 // by one of any age, without a word.
 #include <map_msgs/OccupancyGridUpdate.h>
 #include <nav_msgs/OccupancyGrid.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include <algorithm>
 #include <atomic>
@@ -197,6 +198,33 @@ TEST_F(NavigateMap, AHeartThatStopsHoldsTheDriveUntilItBeatsAgain) {
   EXPECT_TRUE(reports(DiagnosticStatus::WARN, "blocked: the map on /projected_map is not kept up"));
   EXPECT_TRUE(beatsUntil([&] { return drivesNow(); }));
   EXPECT_FALSE(navigate_->output().find("ENDED") != std::string::npos) << "it is no failure";
+}
+
+// What was seen before, by reading: a path was compared with a map of another frame by the last transform between them, however
+// old, while the pose in the path's own frame was new.
+TEST_F(NavigateMap, AnOldTransformToTheMapsFrameHoldsTheDrive) {
+  tf2_ros::TransformBroadcaster broadcaster;
+  const auto join = [&] {
+    geometry_msgs::TransformStamped joint;
+    joint.header.frame_id = "site";
+    joint.header.stamp = ros::Time::now();
+    joint.child_frame_id = "map";
+    joint.transform.rotation.w = 1.0;
+    broadcaster.sendTransform(joint);
+  };
+  const auto joinsUntilItDrives = [&] {
+    return beatsUntil([&] {
+      join();
+      return drivesNow();
+    });
+  };
+  maps_.publish(occupancyToMessage(test::AsciiMap({"........"}).map, "site", ros::Time::now()));
+  startNavigate({"_check_map:=true", "_no_progress_timeout:=0"});
+  publishPath(pathOf({{0, 0}, {50, 0}}));
+  ASSERT_TRUE(joinsUntilItDrives());
+  EXPECT_TRUE(beatsUntil([&] { return !drivesNow(); }));
+  EXPECT_TRUE(navigate_->says("the transform from map to site is"));
+  EXPECT_TRUE(joinsUntilItDrives());
 }
 
 // A heartbeat is no change of the map, nor one that is older than it.

@@ -222,8 +222,7 @@ TEST_F(MapReceiverTest, AMapThatIsRefusedTakesNothingWithIt) {
 
 TEST(MapTopic, AnnouncesAMapOfAnotherPlace) {
   ros::NodeHandle nh("announced");
-  GuardedQueue queue(
-      *ros::getGlobalCallbackQueue());  // as nodes have: it waits for what still runs
+  GuardedQueue queue(*ros::getGlobalCallbackQueue());  // waits for what still runs
   nh.setCallbackQueue(&queue);
   MapTopic topic(nh, "map", true, [] {});
   const test::Latest<map_msgs::OccupancyGridUpdate> updates(nh, "map_updates");

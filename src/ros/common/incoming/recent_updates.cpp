@@ -11,7 +11,6 @@
 namespace grid_path_planner::nodes {
 namespace {
 
-constexpr double kMostAheadOfNow = 10.0;  // s
 constexpr std::size_t kMostBytes = 16'000'000, kMostUpdates = 1000;
 
 bool isValid(const map_msgs::OccupancyGridUpdate& update) {
@@ -39,7 +38,7 @@ void apply(const map_msgs::OccupancyGridUpdate& update, nav_msgs::OccupancyGrid&
 void RecentUpdates::keep(const std::string& publisher, const Update& update,
                          const ros::Time& now) noexcept {
   try {
-    if (secondsBetween(now, update->header.stamp) > kMostAheadOfNow || !isValid(*update)) return;
+    if (secondsBetween(now, update->header.stamp) > kMostAhead || !isValid(*update)) return;
     forgetLaterThan(publisher, update->header.stamp);
     kept_.push_back({publisher, update, now});
     bytes_ += update->data.size();

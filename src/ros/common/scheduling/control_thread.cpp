@@ -9,7 +9,6 @@
 #include <new>
 #include <utility>
 
-#include "ros/common/guarded_queue.h"
 #include "ros/common/scheduling/cpu_share.h"
 #include "ros/common/scheduling/realtime_priority.h"
 
