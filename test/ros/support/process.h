@@ -41,21 +41,15 @@ class Process {
   // Any program, looked up in PATH; the first argument is its name.
   explicit Process(const std::vector<std::string>& command)
       : output_(testing::TempDir() + "process_output_" + std::to_string(::getpid()) + "_" +
-                std::to_string(++count())),
-        pid_(::fork()) {
-    if (pid_ < 0) throw std::runtime_error("no process could be started");
-    if (pid_ > 0) return;
-    ::setenv("ROSCONSOLE_STDOUT_LINE_BUFFERED", "1", 1);  // or its INFO comes at its end
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing is left behind by a test that is killed
-    const int file = ::open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    ::dup2(file, STDOUT_FILENO);
-    ::dup2(file, STDERR_FILENO);
+                std::to_string(++count())) {
     std::vector<char*> arguments;
     for (const std::string& argument : command)
       arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
-    ::execvp(arguments[0], arguments.data());
-    ::_exit(127);
+    ::setenv("ROSCONSOLE_STDOUT_LINE_BUFFERED", "1", 0);  // or its INFO comes at its end
+    pid_ = ::fork();
+    if (pid_ < 0) throw std::runtime_error("no process could be started");
+    if (pid_ == 0) become(arguments);
   }
 
   ~Process() {
@@ -127,6 +121,17 @@ class Process {
   }
 
  private:
+  // In the child. No memory is asked for: another thread may have held the allocator's lock as it was forked, and the child
+  // waited for ever (seen once with the address sanitizer, of some thousand).
+  [[noreturn]] void become(const std::vector<char*>& arguments) const {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing is left behind by a test that is killed
+    const int file = ::open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(file, STDOUT_FILENO);
+    ::dup2(file, STDERR_FILENO);
+    ::execvp(arguments[0], arguments.data());
+    ::_exit(127);
+  }
+
   static int& count() {
     static int processes = 0;
     return processes;
