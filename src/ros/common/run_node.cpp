@@ -62,8 +62,9 @@ class ShutdownRequest {
     const bool has_reason = request.getType() == XmlRpc::XmlRpcValue::TypeArray &&
                             request.size() > 1 &&
                             request[1].getType() == XmlRpc::XmlRpcValue::TypeString;
+    const std::string told = has_reason ? static_cast<std::string>(request[1]) : "";
     const std::lock_guard<std::mutex> lock(mutex_);
-    reason_ = has_reason ? static_cast<std::string>(request[1]) : "asked by the master";
+    reason_ = told.empty() ? "asked by the master" : told;
   }
 
   std::mutex mutex_;

@@ -1,5 +1,7 @@
 // Every node ends within 2 s of SIGINT and of SIGTERM, also while it works.
 #include <nav_msgs/GetPlan.h>
+#include <ros/network.h>
+#include <xmlrpcpp/XmlRpcClient.h>
 
 #include <set>
 #include <thread>
@@ -49,6 +51,29 @@ TEST(EndOfNodes, BySignal) {
       process.end(number);
       EXPECT_EQ(process.exitCode(), 0) << node.name;
     }
+}
+
+// As rosnode kill and the master do, which may give a reason. By the code, one with the reason "" was not heard.
+TEST(EndOfNodes, ByARequestForShutdown) {
+  for (const std::string reason : {"", "a new node has its name"}) {
+    Process process("simulator", {});
+    ASSERT_TRUE(process.says(" runs"));
+    XmlRpc::XmlRpcValue name, uri, request, response;
+    name[0] = "/end_of_nodes";
+    name[1] = "/simulator";
+    XmlRpc::XmlRpcValue answer;
+    ASSERT_TRUE(ros::master::execute("lookupNode", name, answer, uri, false));
+    std::string host;
+    std::uint32_t port = 0;
+    ASSERT_TRUE(ros::network::splitURI(static_cast<std::string&>(uri), host, port));
+    XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
+    request[0] = "/end_of_nodes";
+    request[1] = reason;
+    ASSERT_TRUE(client.execute("shutdown", request, response));
+    EXPECT_TRUE(process.waitForExit(Process::patience()));
+    EXPECT_EQ(process.exitCode(), 0);
+    EXPECT_TRUE(process.hasSaid("ends: " + (reason.empty() ? "asked by the master" : reason)));
+  }
 }
 
 // One that takes connections and is stopped, or that has too much to do: roscpp waits for its answer to every topic
