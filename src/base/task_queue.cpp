@@ -129,11 +129,16 @@ void TaskQueue::run(Task& task) {
   end(task);
 }
 
-// Of the exception that is being handled. Telling may want memory that is not there: the thread
-// lives on.
+// Of the exception that is being handled. Telling may want memory that is not there: who is told hears of it without
+// its text, and the thread lives on.
 void TaskQueue::tellError() const noexcept {
+  std::string text;
   try {
-    if (on_error_) on_error_(currentErrorText());
+    text = currentErrorText();
+  } catch (...) {
+  }
+  try {
+    if (on_error_) on_error_(text);
   } catch (...) {
   }
 }

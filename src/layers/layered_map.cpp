@@ -29,9 +29,23 @@ void LayeredMap::configure(const MapLayersOptions& options, const Zones& zones) 
   auto mask_limits = mask_limits_;
   if (speed_mask_) mask_limits = levelLimitsOfMask(*speed_mask_, options.speed_mask);
   const bool other_rule = options.occupied_min != options_.occupied_min;
-  options_ = options;
-  zones_ = zones;
-  mask_limits_ = std::move(mask_limits);
+  MapLayersOptions other_options = options;
+  Zones other_zones = zones;
+  const auto exchange = [&] {
+    std::swap(options_, other_options);
+    std::swap(zones_, other_zones);
+    std::swap(mask_limits_, mask_limits);
+  };
+  exchange();
+  try {
+    layAll(other_rule);
+  } catch (...) {
+    exchange();
+    throw;
+  }
+}
+
+void LayeredMap::layAll(bool other_rule) {
   if (other_rule && turned_base_) setBase(turned_base_, Changed::value_type{});
   if (other_rule && turned_live_) setLive(turned_live_);
   if (!hasBase()) return;

@@ -69,6 +69,8 @@ class LayeredMap {
 
  private:
   Map levelled(Map map) const;
+  // With the options and zones of now; `other_rule`: of what is occupied.
+  void layAll(bool other_rule);
   void layLive(const std::vector<grid::CellRect>& changed);
   void layKeepOut();
   void layLimits();

@@ -100,19 +100,22 @@ void PathPlanner::setOptions(const PlannerOptions& options) {
     searches_->use(options.planner, options.search);
     lowered_.reset();
   }
+  costmap_is_old_ = costmap_is_old_ || new_costmap;
   options_ = options;
   searched_ = std::move(searched);
   footprint_.reset(footprint.empty() ? nullptr : new Footprint(std::move(footprint)));
-  if (new_costmap) useCostmap();
+  if (costmap_is_old_) useCostmap();
 }
 
-// The searches are of other costs.
+// The searches are of other costs. Where memory fails meanwhile, it is begun again with the next map or options.
 void PathPlanner::useCostmap() {
+  costmap_is_old_ = true;
   searches_->giveUpOthers();
   searches_->current() = {options_.planner, options_.search, make_planner_};
   lowered_.reset();
-  costmap_.reset();
-  if (series_) costmap_ = series_->costmap(searched_.costmap, keptDistances(searched_.costmap));
+  costmap_ =
+      series_ ? series_->costmap(searched_.costmap, keptDistances(searched_.costmap)) : nullptr;
+  costmap_is_old_ = false;
 }
 
 void PathPlanner::setMap(std::shared_ptr<const OccupancyGrid> map) {
@@ -136,7 +139,7 @@ void PathPlanner::takeMap(std::uint64_t at_least) {
   if (!series) return;
   if (series->geometry().size() == 0) throw InputError(kNoCells);
   map_ = series->newest().map;
-  if (series == series_) return;
+  if (series == series_ && !costmap_is_old_) return;
   series_ = std::move(series);
   useCostmap();
 }

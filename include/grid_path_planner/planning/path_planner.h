@@ -260,6 +260,7 @@ class PathPlanner {
   std::shared_ptr<MapSeries> series_;  // null before takeMap()
   std::shared_ptr<const grid::OccupancyGrid> map_;
   std::shared_ptr<SharedCostmap> costmap_;  // of series_ and the options; null before takeMap()
+  bool costmap_is_old_ = false;             // of others, since the change to these failed
   std::uint64_t at_least_ = std::numeric_limits<std::uint64_t>::max();  // as takeMap() was told
   costmap::CostChanges downsampled_changes_;
   std::unique_ptr<PreparedPlanners> searches_;  // of these costmaps

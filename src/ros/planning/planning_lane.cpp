@@ -60,8 +60,8 @@ PlanningLane::PlanningLane(const MapReceiver& maps, std::shared_ptr<MapStore> st
       transforms_(transforms),
       other_(other),
       worker_([this](const std::string& error) {
-        tellGivenUp("What follows a map", error);
         beginAnew();
+        tellGivenUp("What follows a map", error);
       }) {}
 
 void PlanningLane::prepare(const PathPlannerNodeOptions& options, const StopToken& stop) {
@@ -133,9 +133,8 @@ ViaPlan PlanningLane::tryToPlan(const PlanningRequest& request,
                                         ? "planning reached its time limit"
                                         : "planning was cancelled");
   } catch (...) {
-    const std::string error = currentErrorText();
-    beginAnew();
-    return failed(Status::INVALID_REQUEST, "the request was given up: " + error);
+    beginAnew();  // before the text, for which there may be no memory
+    return failed(Status::INVALID_REQUEST, "the request was given up: " + currentErrorText());
   }
 }
 
