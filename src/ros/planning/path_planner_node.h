@@ -12,6 +12,7 @@
 #include <ros/steady_timer.h>
 #include <ros/subscriber.h>
 
+#include <atomic>
 #include <memory>
 
 #include "ros/common/master/command_claim.h"
@@ -48,6 +49,7 @@ class PathPlannerNode {
  private:
   // Callbacks
   void checkTime();
+  void planOnUncheckedMap();
   void onGoal(const geometry_msgs::PoseStamped& message);
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   void onOptions(const PathPlannerNodeOptions& options);
@@ -86,6 +88,7 @@ class PathPlannerNode {
   ros::Subscriber initial_pose_subscriber_;
   RosPeriod replan_period_;
   ros::SteadyTimer clock_timer_;
+  std::atomic<bool> map_unchecked_{false};  // what follows a map was given up
   ros::SteadyTimer full_map_timer_;
 };
 

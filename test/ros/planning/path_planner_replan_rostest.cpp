@@ -130,6 +130,23 @@ TEST_F(ReplanTest, AWholeMapThatClosesEveryCorridorEmptiesThePath) {
   expectStampedAndEmpty(path_);
 }
 
+// By the code: the path stayed, FOUND and OK, since nothing that follows a map was done with one that has no room.
+TEST_F(ReplanTest, AMapThatTakesTooMuchMemoryEmptiesThePath) {
+  startPlanner({"_memory_limit:=20"});
+  publishMap(kCorridors);
+  placeVehicleAndWait(0.5, 2.5);
+  sendGoal(poseAt(6.5, 2.5));
+  ASSERT_EQ(answer_.status, "FOUND");
+  OccupancyGrid map(GridGeometry(3000, 3000, 1.0), 0);
+  for (int row = 0; row < 3000; ++row) map[Cell{3, row}] = 100;
+  const std::size_t statistics = statistics_.count(), paths = paths_.count();
+  maps_.publish(occupancyToMessage(map, "map", ros::Time::now()));
+  waitForAnswer(statistics, paths);
+  EXPECT_EQ(answer_.status, "INVALID_REQUEST");
+  EXPECT_NE(answer_.message.find("memory_limit"), std::string::npos) << answer_.message;
+  expectStampedAndEmpty(path_);
+}
+
 TEST_F(ReplanTest, UpdatesOlderThanTheMapAreDroppedAndThoseOutOfItRefused) {
   startPlanner();
   const ros::Time now = ros::Time::now();
