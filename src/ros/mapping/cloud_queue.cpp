@@ -51,6 +51,8 @@ void CloudQueue::add(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
     drop("no frame", std::string("a cloud without a frame that can be used: ") + error.what());
     return;
   }
+  if (cloud->header.stamp.isZero())  // tf would lay it by the newest pose, whenever it was measured
+    return drop("no stamp", "a cloud without a stamp, in frame '" + cloud->header.frame_id + "'");
   waiting_.push_back({cloud, Clock::now()});
 }
 

@@ -46,6 +46,16 @@ TEST_F(HostileClouds, AnUnknownFrameHoldsUpNoOther) {
   EXPECT_TRUE(drops("no frame", "1"));
 }
 
+// By the code: it was laid by the newest pose of its sensor, wherever that was when it measured.
+TEST_F(HostileClouds, ACloudWithoutAStampIsDropped) {
+  start();
+  placeSensor(0.0, 0.0, 0.0);
+  for (const char* frame : {"map", "sensor"})
+    clouds_.publish(cloudOf(wallAt(2.0F), frame, ros::Time()));
+  EXPECT_TRUE(drops("no stamp", "2"));
+  EXPECT_TRUE(stillMaps());
+}
+
 // They were bounded by number alone: queue_size clouds of any size waited for a transform.
 TEST_F(HostileClouds, CloudsThatWaitAreBoundedInBytes) {
   startMapping({"_tf_timeout:=100", "_queue_size:=100"});
