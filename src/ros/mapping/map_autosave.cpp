@@ -120,7 +120,6 @@ void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud, When 
   if (when == When::IF_DUE && !share_.due()) return;
   std::string text;
   share_.take([&] { text = map.map().fileText(commentsOf(marker(), newest_cloud)); });
-  saved_revision_ = map.revision();
   writer_.post(
       [this, newest_cloud, file = file_, replaced = replaced_, text = std::move(text),
        work = std::make_shared<LastWork>()](const StopSource&) {
@@ -130,12 +129,13 @@ void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud, When 
           std::filesystem::remove(replaced, ignored);
       },
       kSlot);
+  saved_revision_ = map.revision();
 }
 
 // As far as what was told to the writer is.
 bool MapAutosave::isInFile(const MapModel& map) const {
   std::error_code ignored;  // then it is not there
-  return map.revision() == saved_revision_ && state().problem.empty() &&
+  return map.revision() == saved_revision_ && !failed_ && state().problem.empty() &&
          std::filesystem::exists(file_, ignored);
 }
 
@@ -160,12 +160,14 @@ void MapAutosave::write(const std::string& file, const std::string& text,
     std::filesystem::create_directories(folder_, ignored);
     writeFileAtomically(file, text);
   } catch (...) {
+    failed_ = true;  // before its text, for which there may be no memory
     problem = currentErrorText();
     noteProblem(problem);
   }
   std::lock_guard<std::mutex> lock(mutex_);
   state_.newest_cloud = newest_cloud;
   if (!problem.empty()) return;
+  failed_ = false;
   state_.problem.clear();
   written_ = Clock::now();
   unsaved_since_.reset();  // what came meanwhile is noted again soon

@@ -16,6 +16,7 @@
 
 #include <ros/time.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -86,6 +87,7 @@ class MapAutosave {
   unsigned restarts_ = 0;  // of the master, before run_
 
   std::uint64_t saved_revision_ = 0;  // of the mapping thread, as the next
+  std::atomic<bool> failed_{false};   // the last writing
   CpuShare share_{0.2};
 
   mutable std::mutex mutex_;
