@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/seconds_since.h"
 #include "grid/map_differences.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
@@ -126,6 +127,17 @@ std::string MapReceiver::lost() const {
   return lost_;
 }
 
+std::optional<std::chrono::steady_clock::time_point> MapReceiver::lostSince() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return lost_.empty() ? std::nullopt : std::optional(lost_since_);
+}
+
+std::string MapReceiver::whyIncomplete() const {
+  const auto since = lostSince();
+  if (!since || base::secondsSince(*since) <= kLostTimeout) return "";
+  return topic() + " lacks changes: " + lost();
+}
+
 void MapReceiver::subscribeToMaps() {
   map_subscriber_ = subscribeChecked<nav_msgs::OccupancyGrid, const MapEvent&>(
       nh_, name_, 1, [this](const MapEvent& event) { onMap(event); });
@@ -212,6 +224,7 @@ void MapReceiver::noteLoss(const std::string& what, const ros::Time& at) {
   ROS_WARN_STREAM_COND(seldom.isDue(), sentence);
   {
     std::lock_guard<std::mutex> lock(mutex_);
+    if (lost_.empty()) lost_since_ = Clock::now();
     lost_ = sentence;
   }
   askForAWholeMap();
@@ -314,6 +327,8 @@ void MapReceiver::noteUpdate(const UpdateEvent& event) {
     recent_.keep(event.getPublisherName(), event.getConstMessage(), ros::Time::now());
   } catch (const InputError& error) {
     refuse(updates_.getTopic(), error.what());
+    // Of a map that has grown, and comes after it.
+    recent_.keep(event.getPublisherName(), event.getConstMessage(), ros::Time::now());
     return;
   } catch (...) {
     lost_one_ = owes_map_ = true;  // the grid may have it, and nobody was told

@@ -78,6 +78,9 @@ grid::CellRect checkedRect(const grid::OccupancyGrid& map,
 void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const grid::CellRect& rect,
                  grid::OccupancyGrid& map);
 
+// How long a map may lack changes that were lost: a whole one is asked for at once.
+constexpr double kLostTimeout = 1.0;  // s
+
 class MapReceiver {
  public:
   using OnChange = std::function<void(const MapChange&)>;
@@ -100,6 +103,11 @@ class MapReceiver {
 
   // Why the map may lack changes, in a sentence; empty where it does not.
   std::string lost() const;
+  // Since when; none where it does not.
+  std::optional<std::chrono::steady_clock::time_point> lostSince() const;
+  // The same in a sentence, once that is longer than a map may lack changes: for whoever hands the map on, of whose own
+  // updates none was lost.
+  std::string whyIncomplete() const;
 
   void shutdown();
 
@@ -142,6 +150,7 @@ class MapReceiver {
   std::string refusal_;
   std::optional<MapHeartbeat> heartbeat_;
   std::string lost_;
+  Clock::time_point lost_since_;
   UpdateSequence sequence_;              // of the subscribers, as the next
   Clock::time_point asked_at_;           // for a whole map
   Clock::duration until_asked_again_{};  // from then

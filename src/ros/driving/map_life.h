@@ -13,9 +13,6 @@ namespace grid_path_planner::nodes {
 // How long a publisher without heartbeats may be deaf.
 constexpr double kPublisherTimeout = 5.0;  // s
 
-// How long a map may lack changes that were lost: a whole one is asked for at once.
-constexpr double kLostTimeout = 1.0;  // s
-
 struct MapLife {
   std::string topic;       // resolved
   ReceivedMap map;         // its grid is null before the first

@@ -46,19 +46,16 @@ void MapWatch::tell() {
   listener_(life());
 }
 
-void MapWatch::noteLoss(std::string lost) {
-  if (lost.empty())
-    life_.lost_since.reset();
-  else if (!life_.lost_since)
-    life_.lost_since = Clock::now();
-  life_.lost = std::move(lost);
+void MapWatch::noteLoss() {
+  life_.lost = receiver_.lost();
+  life_.lost_since = receiver_.lostSince();
 }
 
 void MapWatch::onMap() {
   ReceivedMap map = receiver_.latest();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    noteLoss(receiver_.lost());
+    noteLoss();
     life_.map = std::move(map);
     life_.heartbeat = life_.map.publisher == heartbeat_of_;
     if (!life_.heartbeat) life_.newest = life_.map.stamp;
@@ -71,7 +68,7 @@ void MapWatch::onHeartbeat() {
   const auto heartbeat = receiver_.heartbeat();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    noteLoss(receiver_.lost());
+    noteLoss();
     // Another's heartbeat does not end the watch of those of the map's own publisher.
     if (life_.heartbeat && heartbeat->publisher != heartbeat_of_) return;
     heartbeat_of_ = heartbeat->publisher;

@@ -29,7 +29,7 @@ class MapWatch {
 
  private:
   void onMap();
-  void noteLoss(std::string lost);  // under the lock
+  void noteLoss();  // under the lock
   void onHeartbeat();
   void tell();
   void run();

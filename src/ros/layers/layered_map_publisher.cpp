@@ -31,7 +31,7 @@ void LayeredMapPublisher::publishMap(LayeredMap& map, const std::string& frame_i
   const bool new_geometry = map.takeNewGeometry();
   const std::vector<CellRect> changed = map.takeChanged();
   const bool whole = topic_.takeNewSubscriber() || new_geometry || owed ||
-                     topic_.wholeMapIsDue(full_map_period) ||
+                     topic_.wholeMapIsDue(full_map_period) || changed.size() > kMostUpdatesAtOnce ||
                      (!changed.empty() && topic_.needsWholeMaps());
   const ros::Time now = ros::Time::now();
   if (whole)

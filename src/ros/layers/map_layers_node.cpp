@@ -189,10 +189,10 @@ void MapLayersNode::startPublishing() {
 void MapLayersNode::use(MapLayersOptions options) {
   checkMapLayersOptions(options);
   checkUnchanged(options, options_);
-  const Zones zones = options.zones_file == options_.zones_file ? zones_ : loadZones(options);
+  Zones zones = options.zones_file == options_.zones_file ? zones_ : loadZones(options);
   lay([&] { map_.configure(options, zones); });
-  zones_ = zones;
-  options_ = options;
+  zones_ = std::move(zones);
+  options_ = std::move(options);
   warnOfZonesOutside();
   startPublishing();
 }
@@ -310,8 +310,11 @@ std::string MapLayersNode::whyStale(const LayerSource& source, Layer layer, bool
 std::string MapLayersNode::whyHeld() {
   for (const LayerSource* source : {&static_source_, &keep_out_source_, &speed_source_})
     if (const std::string why = source->whyNot(options_.source_timeout); !why.empty()) return why;
-  const std::string of_live = whyStale(live_source_, Layer::LIVE, live_dropped_);
+  std::string of_live = whyStale(live_source_, Layer::LIVE, live_dropped_);
   const std::string of_scan = whyStale(scan_source_, Layer::SCAN, scan_dropped_);
+  const std::string of_base = static_maps_.whyIncomplete();
+  if (of_live.empty() && !live_dropped_) of_live = live_maps_.whyIncomplete();
+  if (!of_base.empty()) return of_base;
   return of_live.empty() ? of_scan : of_live;
 }
 
@@ -383,8 +386,11 @@ void MapLayersNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("scans refused", scans_.record().refused());
   status.add("scans refused last because", scans_.record().reason());
   for (const MapReceiver* maps : {&static_maps_, &live_maps_})
-    if (const std::string refusal = maps->refusal(); !refusal.empty())
+    if (const std::string refusal = maps->refusal(); !refusal.empty()) {
       status.add("refused on " + maps->topic(), refusal);
+      status.mergeSummary(DiagnosticStatus::WARN, "the last message on " + maps->topic() +
+                                                      " was refused, the map before it counts");
+    }
 }
 
 }  // namespace grid_path_planner::nodes

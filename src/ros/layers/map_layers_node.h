@@ -10,7 +10,9 @@
 //               /diagnostics
 //
 // Guaranteed: while a source that is used has not come, cannot be used, or is silent, there is
-// no map and no heartbeat, so that vehicles stand; log and diagnostics say which. With stale_source drop a laser or live
+// no map and no heartbeat, so that vehicles stand; log and diagnostics say which. So it is while a map lacks updates that
+// were lost, for longer than kLostTimeout. A map or update that is none is refused, and the one before counts, with a
+// warning in diagnostics. With stale_source drop a laser or live
 // map that has said nothing for source_timeout, since the start or clear_scan too, is done without. What cannot be used
 // changes nothing.
 // The heartbeat is stamped with what the map holds of all sources: the oldest of their newest data. ROS time that goes

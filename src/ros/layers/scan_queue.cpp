@@ -12,18 +12,20 @@ using base::InputError;
 using sensor_msgs::LaserScan;
 
 namespace {
+constexpr char kNotNewer[] = "it is not newer than the one before";
 constexpr std::size_t kMostWaiting = 20;
 constexpr double kOldest = 10.0;  // s: as long as tf is kept
+constexpr double kAhead = 0.5;    // s: more is another clock
 }  // namespace
 
 void ScanQueue::check(const LaserScan& scan) const {
   checkScan(scan);
   if (frameName(scan.header.frame_id).empty()) throw InputError("it names no frame");
   if (scan.header.stamp.isZero()) throw InputError("it has no stamp");
-  if (scan.header.stamp <= newest_) throw InputError("it is not newer than the one before");
+  if (scan.header.stamp <= newest_) throw InputError(kNotNewer);
   const double age = secondsBetween(scan.header.stamp, ros::Time::now());
   if (age > kOldest) throw InputError("it is " + std::to_string(age) + " s old");
-  if (age < -kOldest) throw InputError("it is stamped " + std::to_string(-age) + " s ahead");
+  if (age < -kAhead) throw InputError("it is stamped " + std::to_string(-age) + " s ahead");
 }
 
 void ScanQueue::add(const LaserScan::ConstPtr& scan) {
@@ -34,7 +36,6 @@ void ScanQueue::add(const LaserScan::ConstPtr& scan) {
     record_.refuse(error.what());
     return;
   }
-  newest_ = scan->header.stamp;
   if (waiting_.size() >= kMostWaiting) {
     record_.refuse("more than 20 wait for their transforms");
     waiting_.pop_front();
@@ -49,11 +50,18 @@ bool ScanQueue::isOver(const Waiting& waiting, double timeout) const {
 std::optional<ScanQueue::Ready> ScanQueue::take(const std::string& frame, double timeout) {
   while (!waiting_.empty()) {
     const Waiting first = waiting_.front();
+    const ros::Time stamp = first.scan->header.stamp;
+    if (stamp <= newest_) {
+      waiting_.pop_front();
+      record_.refuse(kNotNewer);
+      continue;
+    }
     try {
-      const auto transform = transforms_.transform(frame, frameName(first.scan->header.frame_id),
-                                                   first.scan->header.stamp);
+      const auto transform =
+          transforms_.transform(frame, frameName(first.scan->header.frame_id), stamp);
       waiting_.pop_front();
       checkScanPose(transform);
+      newest_ = stamp;
       return Ready{first.scan, transform};
     } catch (const InputError& error) {
       record_.refuse(error.what());

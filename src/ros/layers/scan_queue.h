@@ -50,7 +50,7 @@ class ScanQueue {
 
   const FrameLookup& transforms_;
   std::deque<Waiting> waiting_;
-  ros::Time newest_;  // stamp
+  ros::Time newest_;  // stamp of the last that was taken
   InputRecord record_{"A scan"};
 };
 

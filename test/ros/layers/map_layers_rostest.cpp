@@ -1,15 +1,11 @@
 // map_layers through a real roscore: what it hears as one map, and when there is none.
 #include <rosgraph_msgs/Clock.h>
-#include <sensor_msgs/LaserScan.h>
 #include <std_msgs/Empty.h>
-#include <tf2_ros/static_transform_broadcaster.h>
-#include <limits>
 
 #include <fstream>
 #include <limits>
 
-#include "ros/support/map_listeners.h"
-#include "support/ascii_map.h"
+#include "ros/support/layers_fixture.h"
 #include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
@@ -17,79 +13,14 @@ namespace {
 
 using grid::Cell;
 using grid::OccupancyGrid;
-using test::Process;
+using test::kOpenRoom;
 using test::waitFor;
 
-const std::vector<std::string> kRoom(12, "............");
-
-class MapLayers : public testing::Test {
- protected:
-  MapLayers() { ros::param::del("/map_layers"); }
-
-  void start(const std::vector<std::string>& arguments) {
-    node_ = std::make_unique<Process>("map_layers", arguments);
-    ASSERT_TRUE(waitFor([&] { return copy_.connected() && beats_.connected(); }));
-  }
-  void publishStatic(const std::vector<std::string>& lines, const grid::Origin& origin = {},
-                     const std::string& frame = "map") {
-    static_.publish(
-        occupancyToMessage(test::AsciiMap(lines, 1.0, origin).map, frame, ros::Time::now()));
-  }
-  void placeLaser() {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = ros::Time::now();
-    transform.header.frame_id = "map";
-    transform.child_frame_id = "laser";
-    transform.transform.translation.x = 0.5;
-    transform.transform.translation.y = 0.5;
-    transform.transform.rotation.w = 1.0;
-    broadcaster_.sendTransform(transform);
-  }
-  // A ray along the x axis.
-  void see(float range, const ros::Time& stamp = ros::Time::now()) {
-    sensor_msgs::LaserScan scan;
-    scan.header.frame_id = "laser";
-    scan.header.stamp = stamp;
-    scan.range_max = 30.0F;
-    scan.ranges = {range};
-    scans_.publish(scan);
-  }
-  int at(int column, int row) const {
-    return copy_.maps() == 0 ? -2 : copy_.grid()[Cell{column, row}];
-  }
-  bool becomes(int column, int row, int value) const {
-    return waitFor([&] { return at(column, row) == value; });
-  }
-  // While scans of that range come.
-  bool becomesBySeeing(float range, int column, int row, int value) {
-    return waitFor([&] {
-      see(range);
-      return at(column, row) == value;
-    });
-  }
-  std::size_t beats() const {
-    std::size_t count = 0;
-    for (const auto& update : beats_.all()) count += update.width == 0 ? 1 : 0;
-    return count;
-  }
-
-  ros::NodeHandle nh_;
-  tf2_ros::StaticTransformBroadcaster broadcaster_;
-  ros::Publisher static_ = nh_.advertise<nav_msgs::OccupancyGrid>("static_map", 1, true);
-  ros::Publisher live_ = nh_.advertise<nav_msgs::OccupancyGrid>("live_map", 1, true);
-  ros::Publisher live_updates_ =
-      nh_.advertise<map_msgs::OccupancyGridUpdate>("live_map_updates", 10);
-  ros::Publisher mask_ = nh_.advertise<nav_msgs::OccupancyGrid>("keep_out_mask", 1, true);
-  ros::Publisher scans_ = nh_.advertise<sensor_msgs::LaserScan>("scan", 10);
-  test::MapCopy copy_{nh_, "projected_map"};
-  test::Latest<map_msgs::OccupancyGridUpdate> beats_{nh_, "projected_map_updates"};
-  test::Latest<nav_msgs::OccupancyGrid> limits_{nh_, "speed_limit"};
-  std::unique_ptr<Process> node_;
-};
+class MapLayers : public test::LayersTest {};
 
 TEST_F(MapLayers, ALasersObstacleAppearsAndIsClearedAndOnlyWhatChangedIsSent) {
   placeLaser();
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   start({"_use_scan:=true", "_source_timeout:=5", "_full_map_period:=3600"});
   EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
   const std::size_t maps = copy_.maps();
@@ -102,7 +33,7 @@ TEST_F(MapLayers, ALasersObstacleAppearsAndIsClearedAndOnlyWhatChangedIsSent) {
 // What was carried away while no ray crossed its place, and what dust marked, stay until somebody asks.
 TEST_F(MapLayers, TheLasersObstaclesAreForgottenByClearScanAndThoseOfTheMapAreNot) {
   placeLaser();
-  std::vector<std::string> room = kRoom;
+  std::vector<std::string> room = kOpenRoom;
   room[2][8] = '#';
   publishStatic(room);
   start({"_use_scan:=true", "_source_timeout:=60"});
@@ -117,7 +48,7 @@ TEST_F(MapLayers, TheLasersObstaclesAreForgottenByClearScanAndThoseOfTheMapAreNo
 }
 
 TEST_F(MapLayers, ALiveMapWithUpdatesIsLaidOverAndItsHeartbeatGoesOn) {
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   start({"_use_live_map:=true", "_source_timeout:=5"});
   EXPECT_TRUE(node_->says("There is no map")) << "it has not come yet";
   EXPECT_EQ(copy_.maps(), 0U);
@@ -142,7 +73,7 @@ TEST_F(MapLayers, ALiveMapWithUpdatesIsLaidOverAndItsHeartbeatGoesOn) {
 
 TEST_F(MapLayers, WhileTheLaserIsSilentThereIsNoMapAndNoHeartbeat) {
   placeLaser();
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   start({"_use_scan:=true", "_source_timeout:=0.5"});
   EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
   const std::size_t said = node_->output().size();
@@ -170,7 +101,7 @@ TEST_F(MapLayers, WhenTimeHasGoneBackThereIsNoMapUntilTheLaserHasLookedAgain) {
     clock.publish(message);
   };
   placeLaser();
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   start({"_use_scan:=true", "_source_timeout:=60", "_stale_source:=drop"});
   ros::param::del("/use_sim_time");
   const auto becomesBySeeingAt = [&](const ros::Time& time) {
@@ -213,7 +144,7 @@ TEST_F(MapLayers, AScanFromBeforeTheStaticMapDoesNotCountAsLookedAt) {
     see(5.0F);
     ros::WallDuration(0.1).sleep();
   }
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   ASSERT_TRUE(node_->says("vehicles stand: nothing has come on /scan yet"));
   EXPECT_EQ(copy_.maps(), 0U);
   ASSERT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
@@ -227,7 +158,7 @@ TEST_F(MapLayers, AScanFromBeforeTheStaticMapDoesNotCountAsLookedAt) {
 
 TEST_F(MapLayers, ALaserThatIsSilentCanBeDropped) {
   placeLaser();
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   start({"_use_scan:=true", "_source_timeout:=0.5", "_stale_source:=drop"});
   EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
   EXPECT_TRUE(becomes(5, 0, 0)) << "without what it said";
@@ -239,7 +170,7 @@ TEST_F(MapLayers, ALaserThatIsSilentCanBeDropped) {
 // there was never a map again.
 TEST_F(MapLayers, ALaserThatWasDroppedStaysSoWhileTheStaticMapGrows) {
   placeLaser();
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   start({"_use_scan:=true", "_source_timeout:=1", "_stale_source:=drop"});
   EXPECT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
   ASSERT_TRUE(node_->says("The map goes on without what is not there: /scan"));
@@ -255,7 +186,7 @@ TEST_F(MapLayers, ALaserThatWasDroppedStaysSoWhileTheStaticMapGrows) {
 // through what it had just forgotten.
 TEST_F(MapLayers, OnlyALaserThatIsSilentForItsTimeIsDropped) {
   placeLaser();
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   start({"_use_scan:=true", "_source_timeout:=60", "_stale_source:=drop"});
   const std::string held = "vehicles stand: nothing has come on /scan yet";
   EXPECT_TRUE(node_->says(held));
@@ -272,7 +203,7 @@ TEST_F(MapLayers, OnlyALaserThatIsSilentForItsTimeIsDropped) {
 }
 
 TEST_F(MapLayers, ALaserWhoseScansAreRefusedIsNotDropped) {
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   start({"_use_scan:=true", "_source_timeout:=4", "_stale_source:=drop", "_tf_timeout:=0.1"});
   EXPECT_TRUE(waitFor([&] {
     see(5.0F);
@@ -288,9 +219,9 @@ TEST_F(MapLayers, ALaserWhoseScansAreRefusedIsNotDropped) {
 }
 
 TEST_F(MapLayers, ALiveMapThatIsRefusedIsNotDropped) {
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   start({"_use_scan:=false", "_use_live_map:=true", "_source_timeout:=0.5", "_stale_source:=drop"});
-  live_.publish(occupancyToMessage(test::AsciiMap(kRoom).map, "elsewhere", ros::Time::now()));
+  live_.publish(occupancyToMessage(test::AsciiMap(kOpenRoom).map, "elsewhere", ros::Time::now()));
   EXPECT_TRUE(node_->says("/live_map cannot be used"));
   const std::size_t maps = copy_.maps(), before = beats();
   ros::WallDuration(1.5).sleep();  // longer than source_timeout, in which a heartbeat would come
@@ -305,7 +236,7 @@ TEST_F(MapLayers, ZonesAndMasksOfOtherResolutionsAreKeptOutOf) {
                    "zones:\n"
                    "  - {kind: keep_out, polygon: [[2.5, 2.5], [4.5, 2.5], [4.5, 3.5]]}\n"
                    "  - {kind: slow, max_speed: 0.2, polygon: [[6, 6], [8, 6], [8, 7], [6, 7]]}\n");
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   start({"--zones-file", zones, "_use_keep_out_mask:=true"});
   EXPECT_TRUE(node_->says("nothing has come on /keep_out_mask yet"));
   mask_.publish(occupancyToMessage(test::AsciiMap({"#"}, 0.5, {9.25, 9.25, 0.0}).map, "map",
@@ -323,7 +254,7 @@ TEST_F(MapLayers, ZonesAndMasksOfOtherResolutionsAreKeptOutOf) {
 
 // It was refused, and no tool could turn it: whoever had surveyed such a map had no zones.
 TEST_F(MapLayers, AMapWithAYawIsLaidOnAGridWithoutOne) {
-  std::vector<std::string> room = kRoom;
+  std::vector<std::string> room = kOpenRoom;
   room[5][6] = '#';
   publishStatic(room, {0.0, 0.0, 0.3});
   start({"_use_scan:=false"});
@@ -340,16 +271,16 @@ TEST_F(MapLayers, AMapWithAYawIsLaidOnAGridWithoutOne) {
 // It held the map: publishers of maps forget the frame more often than anything else.
 TEST_F(MapLayers, AMapWithoutAFrameIsInTheMapFrame) {
   start({"_use_scan:=false"});
-  publishStatic(kRoom, {}, "");
+  publishStatic(kOpenRoom, {}, "");
   EXPECT_TRUE(becomes(3, 3, 0));
 }
 
 TEST_F(MapLayers, WhatCannotBeMergedIsToldAndHoldsTheMap) {
   start({"_use_scan:=false"});
-  publishStatic(kRoom, {}, "odom");
+  publishStatic(kOpenRoom, {}, "odom");
   EXPECT_TRUE(node_->says("it is in frame 'odom', map_frame is 'map'"));
   EXPECT_EQ(copy_.maps(), 0U);
-  publishStatic(kRoom);
+  publishStatic(kOpenRoom);
   EXPECT_TRUE(becomes(3, 3, 0));
 }
 

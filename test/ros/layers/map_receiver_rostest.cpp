@@ -113,6 +113,19 @@ TEST_F(MapReceiverTest, AnUpdateOfAMapOfAnotherPlaceWaitsForIt) {
   EXPECT_EQ(receiver_.lost(), "");
 }
 
+// As of costmap_2d, which announces nothing: it was refused, since it does not lie in the map before, and forgotten.
+TEST_F(MapReceiverTest, AnUpdateBeyondTheMapIsLaidOnTheLargerOneThatItOvertook) {
+  const auto before = firstMap(5.0);
+  send(cellAt(7, 100, 1.0));
+  ASSERT_TRUE(isTaken());
+  EXPECT_EQ(values(), before.data);
+  EXPECT_NE(receiver_.refusal(), "");
+  maps_.publish(mapAt(0.0, {"....#...."}, 2.0));
+  EXPECT_TRUE(comes([&] { return values() == mapAt(0.0, {"....#..#."}, 0.0).data; }));
+  EXPECT_EQ(receiver_.refusal(), "");
+  EXPECT_EQ(receiver_.lost(), "");
+}
+
 TEST_F(MapReceiverTest, AMapFromBeforeTheAnnouncedOneIsTakenWithoutWhatFollowed) {
   firstMap(9.0);
   send(cellAt(1, 100, 6.0));

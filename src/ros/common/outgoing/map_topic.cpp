@@ -42,7 +42,7 @@ MapTopic::MapTopic(ros::NodeHandle nh, const std::string& topic, bool latch,
   maps_ = nh.advertise<nav_msgs::OccupancyGrid>(topic, 5, adding(of_maps_), removing(of_maps_), {},
                                                 latch);
   updates_ = nh.advertise<map_msgs::OccupancyGridUpdate>(
-      topic + "_updates", 100, adding(of_updates_), removing(of_updates_));
+      topic + "_updates", 2 * kMostUpdatesAtOnce, adding(of_updates_), removing(of_updates_));
 }
 
 ros::SubscriberStatusCallback MapTopic::adding(Subscribers& to) {
@@ -85,19 +85,21 @@ bool MapTopic::wholeMapIsDue(double period) const {
   return updated_ && passed.count() >= period;
 }
 
-// Whether it lies elsewhere than the map that was sent last, which it is from now on.
-bool MapTopic::changesPlace(const nav_msgs::OccupancyGrid& map) {
+nav_msgs::OccupancyGrid MapTopic::placeOf(const nav_msgs::OccupancyGrid& map) {
   nav_msgs::OccupancyGrid place;
   place.header.frame_id = map.header.frame_id;
   place.info = map.info;
   place.info.map_load_time = ros::Time();
-  std::swap(place, place_);
-  return place.info.width > 0 && place != place_;
+  return place;
 }
 
+// One that could not be sent for want of memory, or its announcement, is announced again.
 void MapTopic::send(const nav_msgs::OccupancyGrid& map) {
-  if (changesPlace(map) && !map.header.stamp.isZero()) updates_.publish(announcementOf(map));
+  nav_msgs::OccupancyGrid place = placeOf(map);
+  const bool elsewhere = place_.info.width > 0 && place != place_;
+  if (elsewhere && !map.header.stamp.isZero()) updates_.publish(announcementOf(map));
   maps_.publish(map);
+  place_ = std::move(place);
   std::lock_guard<std::mutex> lock(mutex_);
   updated_ = false;
   sent_at_ = std::chrono::steady_clock::now();

@@ -17,6 +17,7 @@
 #include <ros/publisher.h>
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <mutex>
 #include <set>
@@ -32,6 +33,9 @@ map_msgs::OccupancyGridUpdate updateOf(const grid::CellRect& cells, const std::s
 // With those that `map`, in which the rectangle lies, has there.
 map_msgs::OccupancyGridUpdate updateOf(const grid::OccupancyGrid& map, const grid::CellRect& cells,
                                        const std::string& frame_id, const ros::Time& stamp);
+
+// Of more than so many updates at once some might be lost: a whole map is sent instead. Half of what waits for a subscriber.
+constexpr std::size_t kMostUpdatesAtOnce = 50;
 
 class MapTopic {
  public:
@@ -59,7 +63,8 @@ class MapTopic {
  private:
   using Subscribers = std::multiset<std::string>;
 
-  bool changesPlace(const nav_msgs::OccupancyGrid& map);
+  // Where it lies, and its size: the map without its cells.
+  static nav_msgs::OccupancyGrid placeOf(const nav_msgs::OccupancyGrid& map);
   ros::SubscriberStatusCallback adding(Subscribers& to);
   ros::SubscriberStatusCallback removing(Subscribers& from);
 
