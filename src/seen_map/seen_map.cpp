@@ -58,8 +58,9 @@ bool emptyAround(const Frame& frame, int column, int row) {
 SeenMap::SeenMap(const PilotOptions& options) : options_(options), map_(octreeOptions(options)) {}
 
 void SeenMap::see(const Frame& frame) {
-  if (frame.time - kept_at_ < kKeepEvery) return;
-  kept_at_ = frame.time;
+  const auto kept = kept_at_.find(frame.sensor);
+  if (kept != kept_at_.end() && frame.time - kept->second < kKeepEvery) return;
+  kept_at_[frame.sensor] = frame.time;
   waiting_.push_back(scanOf(frame));
   if (waiting_.size() >= kMostWaiting) insertWaiting();
 }

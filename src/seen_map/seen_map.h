@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <vector>
 
 #include "grid_path_planner/avoidance/frame.h"
@@ -40,7 +41,7 @@ class SeenMap {
   avoidance::PilotOptions options_;
   mapping::OctreeMap map_;
   std::vector<mapping::Scan> waiting_;
-  double kept_at_ = -1e9;  // s, of the last frame that was kept
+  std::map<int, double> kept_at_;  // s, of the last frame that was kept, by sensor
 };
 
 }  // namespace grid_path_planner::seen_map

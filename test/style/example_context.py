@@ -114,7 +114,7 @@ CONTEXT = {
         extern AVehicle vehicle;""",
     "cloud_frames.h": """#include <sensor_msgs/PointCloud2.h>
         extern sensor_msgs::PointCloud2::ConstPtr cloud; extern FrameTransforms transforms; extern ros::Time now;
-        using avoidance::Frame; void use(const Frame&); void stand();""",
+        extern avoidance::PilotOptions options; using avoidance::Frame; void use(const Frame&); void stand();""",
     "flight_action.h": """extern ros::NodeHandle nh; extern NodeFiles files; extern avoidance::PilotAnswer answer;
         extern avoidance::VehiclePose pose; path::Path fly(const path::Path&, bool); void cancel(const std::string&);
         path::Path read(const nav_msgs::Path&);""",

@@ -27,6 +27,7 @@ struct Frame {
   std::vector<float> points = {};  // x, y, z (m) of width * height pixels, row by row
   // None: only measured rays tell what is free.
   std::optional<Pinhole> pinhole = {};
+  int sensor = 0;  // which of several took it
 
   std::size_t pixels() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

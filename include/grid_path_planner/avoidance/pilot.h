@@ -32,6 +32,10 @@
 
 namespace grid_path_planner::avoidance {
 
+// Whether nothing is known by the frame: no point within range_min to range_max, and no rays of a picture that no_return_clears
+// lets stand for space. Such a sensor is lost, not free of obstacles.
+bool isBlind(const Frame& frame, const PilotOptions& options);
+
 enum class PilotStatus {
   IDLE,  // nothing was asked for yet
   FLYING,

@@ -105,7 +105,6 @@ bool FrameSight::pinholeFits(const Frame& frame) const {
 
 void FrameSight::hits(const Frame& frame, const PilotOptions& options, const HeightBand& band,
                       VoxelMemory& memory) {
-  measured_ = 0;
   const bool picture = frame.organised() && frame.pinhole.has_value();
   const auto nearest = static_cast<float>(options.range_min * options.range_min);
   const auto farthest = static_cast<float>(options.range_max * options.range_max);
@@ -113,7 +112,6 @@ void FrameSight::hits(const Frame& frame, const PilotOptions& options, const Hei
     const Vector3f point = pointOf(frame, pixel);
     const float range = point.squaredNorm();
     if (!(range >= nearest && range <= farthest)) continue;
-    ++measured_;
     if (picture && isAlone(frame, pixel)) continue;
     const Vector3d in_map = frame.map_from_sensor * point.cast<double>();
     if (in_map.z() >= band.low && in_map.z() <= band.high) memory.hit(in_map);
@@ -221,6 +219,7 @@ void FrameSight::crossRays(const Frame& frame, const PilotOptions& options, Voxe
     return Vector3d(frame.map_from_sensor * (point * share));
   };
   rays_.clear();
+  rays_.reserve(frame.pixels());  // or bits of ray_ends_ stay where memory fails
   for (std::size_t pixel = 0; pixel < frame.pixels(); ++pixel) {
     const float range = pointOf(frame, pixel).norm();
     if (!(std::isfinite(range) && range >= options.range_min)) continue;

@@ -25,9 +25,7 @@ class FrameSight {
   void see(const Frame& frame, const PilotOptions& options, const HeightBand& band,
            VoxelMemory& memory);
 
-  // Of the last frame.
-  std::size_t measuredPoints() const { return measured_; }
-  // Whether it had a pinhole that its points do not agree with; then only measured rays cleared.
+  // Whether the last frame had a pinhole that its points do not agree with; then only measured rays cleared.
   bool pinholeDisagrees() const { return pinhole_disagrees_; }
 
  private:
@@ -44,7 +42,6 @@ class FrameSight {
                 const Voxel& from, int count, VoxelMemory& memory) const;
   void crossRays(const Frame& frame, const PilotOptions& options, VoxelMemory& memory);
 
-  std::size_t measured_ = 0;
   bool pinhole_disagrees_ = false;
   std::vector<float> depths_;  // m along z up to which a pixel's ray is free; 0: not known
   std::vector<float> ranges_;  // m along the ray, of pixels that clear without return; else 0

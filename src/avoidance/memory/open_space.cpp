@@ -59,12 +59,12 @@ void OpenSpace::refresh(const VoxelMemory& memory, double d_safe, const HeightBa
   collectPoints(memory, band);
 }
 
-// A counting sort by cell.
+// A counting sort by cell. Until there is room for all points, those of before stay as they are.
 void OpenSpace::collectPoints(const VoxelMemory& memory, const HeightBand& band) {
   found_.clear();
   found_cells_.clear();
   appeared_.clear();
-  std::fill(cell_begins_.begin(), cell_begins_.end(), 0);
+  counted_.assign(kCells + 1, 0);
   const std::vector<std::uint64_t>& words = memory.occupiedBits().words();
   for (int word = 0; word < kSlots / 64; ++word)
     for (std::uint64_t bits = words[word]; bits != 0; bits &= bits - 1) {
@@ -75,17 +75,18 @@ void OpenSpace::collectPoints(const VoxelMemory& memory, const HeightBand& band)
       const int cell = cellOf(voxel.x, voxel.y, voxel.z);
       found_.push_back(point);
       found_cells_.push_back(cell);
-      ++cell_begins_[cell + 1];
+      ++counted_[cell + 1];
       if (memory.appeared(slot, kAppearedFrames) && isDetached(memory, voxel))
         appeared_.push_back(point);
     }
-  for (int cell = 0; cell < kCells; ++cell) cell_begins_[cell + 1] += cell_begins_[cell];
+  for (int cell = 0; cell < kCells; ++cell) counted_[cell + 1] += counted_[cell];
   points_.resize(found_.size());
   for (std::size_t i = found_.size(); i-- > 0;)
-    points_[--cell_begins_[found_cells_[i] + 1]] = found_[i];
+    points_[--counted_[found_cells_[i] + 1]] = found_[i];
   // Each begin was moved one cell on, and each end down to its begin.
-  for (int cell = 0; cell < kCells; ++cell) cell_begins_[cell] = cell_begins_[cell + 1];
-  cell_begins_[kCells] = static_cast<int>(found_.size());
+  for (int cell = 0; cell < kCells; ++cell) counted_[cell] = counted_[cell + 1];
+  counted_[kCells] = static_cast<int>(found_.size());
+  counted_.swap(cell_begins_);
 }
 
 double OpenSpace::nearest(const Vector3d& from, double reach, double enough) const {

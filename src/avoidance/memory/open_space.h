@@ -64,6 +64,7 @@ class OpenSpace {
   Window window_;
   SlotBits all_seen_, seen_, crowded_;
   std::vector<int> cell_begins_;         // of the points of each cell of 4 x 4 x 4 voxels
+  std::vector<int> counted_;             // the next of these
   std::vector<Eigen::Vector3f> points_;  // cell by cell
   std::vector<Eigen::Vector3f> found_;   // in the order of their slots
   std::vector<int> found_cells_;

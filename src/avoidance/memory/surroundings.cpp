@@ -27,6 +27,15 @@ bool isUsable(const Eigen::Isometry3d& pose) {
 
 }  // namespace
 
+bool isBlind(const Frame& frame, const PilotOptions& options) {
+  if (frame.organised() && options.no_return_clears > 0.0) return false;
+  for (std::size_t pixel = 0; pixel < frame.pixels(); ++pixel)
+    if (const double range = Eigen::Vector3f(&frame.points[3 * pixel]).norm();
+        range >= options.range_min && range <= options.range_max)
+      return false;
+  return true;
+}
+
 std::string Surroundings::refusal(const Frame& frame, double now,
                                   const PilotOptions& options) const {
   if (!std::isfinite(frame.time)) return "the cloud's stamp is not a number";
@@ -63,8 +72,7 @@ void Surroundings::see(const Frame& frame, double now, const PilotOptions& optio
   memory_.beginFrame(milliseconds(time));
   sight_.see(frame, options, bandAbout(band_middle_.value_or(sensor.z()), options), memory_);
   new_ = true;
-  const bool sees_nothing = frame.organised() && options.no_return_clears > 0.0;
-  if (sight_.measuredPoints() == 0 && !sees_nothing)
+  if (isBlind(frame, options))
     problem_ = "the cloud holds no point";
   else
     frame_time_ = std::max(time, frame_time_.value_or(time));

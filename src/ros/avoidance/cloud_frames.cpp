@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "grid_path_planner/avoidance/pilot.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/clock.h"
@@ -13,6 +14,8 @@
 namespace grid_path_planner::nodes {
 
 using avoidance::Frame;
+using avoidance::isBlind;
+using avoidance::PilotOptions;
 using avoidance::Pinhole;
 
 namespace {
@@ -107,11 +110,14 @@ Frame CloudFrames::read(const Sensor& sensor, const sensor_msgs::PointCloud2& cl
 
 // One that waits too long keeps the sentence of what it waited for.
 std::optional<Frame> CloudFrames::next(Sensor& sensor, const FrameLookup& transforms,
-                                       const std::string& map_frame, const ros::Time& now) {
+                                       const std::string& map_frame, const ros::Time& now,
+                                       const PilotOptions& options) {
   for (auto* cloud : {&sensor.waiting, &sensor.next}) {
     if (!*cloud) continue;
     try {
       Frame frame = read(sensor, **cloud, transforms, map_frame, now);
+      if (isBlind(frame, options))
+        throw base::InputError("the newest cloud holds no point within range_min and range_max");
       sensor.newest = std::min((*cloud)->header.stamp, now);  // stamps ahead prolong nothing
       sensor.problem.clear();
       cloud->reset();
@@ -129,10 +135,14 @@ std::optional<Frame> CloudFrames::next(Sensor& sensor, const FrameLookup& transf
 }
 
 std::vector<Frame> CloudFrames::take(const FrameLookup& transforms, const std::string& map_frame,
-                                     const ros::Time& now) {
+                                     const ros::Time& now, const PilotOptions& options) {
   std::vector<Frame> frames;
-  for (Sensor& sensor : sensors_)
-    if (auto frame = next(sensor, transforms, map_frame, now)) frames.push_back(std::move(*frame));
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    auto frame = next(sensors_[i], transforms, map_frame, now, options);
+    if (!frame) continue;
+    frame->sensor = static_cast<int>(i);
+    frames.push_back(std::move(*frame));
+  }
   std::stable_sort(frames.begin(), frames.end(),
                    [](const Frame& a, const Frame& b) { return a.time < b.time; });
   return frames;

@@ -2,7 +2,7 @@
 //
 //   CloudFrames frames({"front/points", "rear/points"});
 //   frames.add(0, cloud);                                    // in the callback
-//   for (const Frame& frame : frames.take(transforms, "map", now)) use(frame);
+//   for (const Frame& frame : frames.take(transforms, "map", now, options)) use(frame);
 //   if (!frames.silence(now, 0.4).empty()) stand();
 //
 // Of each topic only the newest cloud waits, and while tf lags behind it the newest after that. One that
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "grid_path_planner/avoidance/frame.h"
+#include "grid_path_planner/avoidance/pilot_options.h"
 #include "ros/common/frame_transforms.h"
 
 namespace grid_path_planner::nodes {
@@ -31,9 +32,10 @@ class CloudFrames {
   void setCamera(std::size_t topic, const sensor_msgs::CameraInfo& camera);
   void clear();
 
-  // The clouds that waited and of which tf knows where their sensor was, the oldest first.
+  // The clouds that waited and of which tf knows where their sensor was, the oldest first. One by which nothing is known is
+  // none (avoidance::isBlind): a covered lens is not made good by another sensor that sees.
   std::vector<avoidance::Frame> take(const FrameLookup& transforms, const std::string& map_frame,
-                                     const ros::Time& now);
+                                     const ros::Time& now, const avoidance::PilotOptions& options);
 
   // Of a topic of which no cloud could be used for longer than `timeout` (s), in a sentence; empty: none.
   std::string silence(const ros::Time& now, double timeout) const;
@@ -54,7 +56,8 @@ class CloudFrames {
   };
 
   static std::optional<avoidance::Frame> next(Sensor& sensor, const FrameLookup& transforms,
-                                              const std::string& map_frame, const ros::Time& now);
+                                              const std::string& map_frame, const ros::Time& now,
+                                              const avoidance::PilotOptions& options);
   static avoidance::Frame read(const Sensor& sensor, const sensor_msgs::PointCloud2& cloud,
                                const FrameLookup& transforms, const std::string& map_frame,
                                const ros::Time& now);

@@ -49,6 +49,7 @@ FlightAction::~FlightAction() {
 }
 
 void FlightAction::onGoal() {
+  hands_.notice_time();
   if (active_) {
     hands_.cancel("replaced by another goal");  // whatever becomes of that
     finish("CANCELLED", "replaced by another goal");
@@ -92,6 +93,7 @@ void FlightAction::readFile(const std::string& filename) {
           result = [what = std::string(error.what())]() -> Path { throw base::InputError(what); };
         }
         const auto use = [this, result, number, handovers] {
+          hands_.notice_time();
           if (active_ && number == goals_ && std::exchange(is_read_, false))
             start(result, false, handovers);
         };

@@ -30,12 +30,6 @@ namespace {
 
 constexpr double kOdometryAge = 0.5;  // s
 
-// "/map" is "map".
-void nameFrames(LocalPlannerOptions& options) {
-  options.map_frame = frameName(options.map_frame);
-  options.base_frame = frameName(options.base_frame);
-}
-
 LocalPlannerOptions loadLocalPlannerOptions(const ros::NodeHandle& private_nh,
                                             const NodeFiles& files) {
   LocalPlannerOptions options;
@@ -71,13 +65,6 @@ std::vector<Eigen::Vector3d> positionsOf(const path::Path& path) {
   return points;
 }
 
-std::vector<std::string> resolvedTopics(const ros::NodeHandle& nh,
-                                        const LocalPlannerOptions& options) {
-  std::vector<std::string> topics;
-  for (const std::string& topic : cloudTopics(options)) topics.push_back(nh.resolveName(topic));
-  return topics;
-}
-
 }  // namespace
 
 LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
@@ -100,8 +87,7 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
     pilot_.setMapPlan([this](const auto& from, const auto& goal) { return map_.plan(from, goal); });
   else
     ROS_INFO("Built without the component mapping: there is no map to plan on without progress");
-  if (!options_.config_filename.empty())
-    fly(readWaypoints(files, options_.config_filename), false, handovers_);
+  if (!options_.config_filename.empty()) flyFile(files);
   subscribe();
   subscribeClouds();
   offerServices(private_nh);
@@ -111,16 +97,26 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
   startDiagnostics();
 }
 
+// Without tf yet, by which those of another frame could be laid into the map.
+void LocalPlannerNode::flyFile(const NodeFiles& files) {
+  const path::Path waypoints = readWaypoints(files, options_.config_filename);
+  if (waypoints.frame_id != options_.map_frame)
+    throw InputError(options_.config_filename, "its waypoints are in frame '" + waypoints.frame_id +
+                                                   "', map_frame is '" + options_.map_frame + "'");
+  fly(waypoints, false, handovers_);
+}
+
 LocalPlannerNode::~LocalPlannerNode() {
   control_timer_.stop();
   diagnostics_timer_.stop();
   stop();
+  // No handover is noted any more, and what waits for the action does not outlive it.
+  nh_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
   for (ros::Subscriber& clouds : cloud_subscribers_) clouds.shutdown();
   for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
   reconfigurable_.reset();
   action_.reset();
-  nh_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
 }
 
 void LocalPlannerNode::startLog(const NodeFiles& files) {
@@ -132,17 +128,16 @@ void LocalPlannerNode::startLog(const NodeFiles& files) {
 FlightAction::Hands LocalPlannerNode::hands() {
   return {[this](const path::Path& path, bool along, unsigned handovers) {
             const path::Path flown = inMap(path);
-            noticeTime();
             fly(flown, along, handovers);
             given_goals_.endAllUntil(ros::Time::now());
             return flown;
           },
-          [this] { return handovers_; },
+          [this] { noticeTime(); }, [this] { return handovers_; },
           [this](const std::string& reason) {
             endGoalsUntilNow();
             if (flies_) pilot_.cancel(reason);
           },
-          [this](const nav_msgs::Path& path) { return pathIn(path); }};
+          [this](const nav_msgs::Path& path) { return inMap(pathIn(path), path.header.stamp); }};
 }
 
 // Whoever took the vehicle that stood still does not find it flying off when he lets it go. What waits in the queue was
@@ -207,9 +202,10 @@ void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
 FlightHold::Answer LocalPlannerNode::cancelByHand() {
   cancelled_publisher_.publish(std_msgs::Empty());
   endGoalsUntilNow();
-  const bool was_paused = hold_.endPause();
   const bool was_read = action_->cancelReading("cancelled by ~cancel while its file was read");
   if (flies_) pilot_.cancel("asked for by ~cancel");
+  const bool was_paused =
+      hold_.endPause();  // last: what was not cancelled, for want of memory, stays paused
   if (flies_) return {true, "cancelled"};
   if (was_read) return {true, "cancelled while its file was read"};
   if (was_paused) return {true, "nothing is flown, and the next flight does not wait any more"};
@@ -276,7 +272,7 @@ void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
   message.header = goal.header;
   message.poses = {goal};
   try {
-    fly(inMap(pathIn(message)), false, handovers_);
+    fly(inMap(pathIn(message), goal.header.stamp), false, handovers_);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
   }
@@ -298,16 +294,21 @@ void LocalPlannerNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   try {
-    fly(inMap(pathIn(message)), true, handovers_);
+    fly(inMap(pathIn(message), message.header.stamp), true, handovers_);
     given_goals_.drive(message);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
   }
 }
 
-path::Path LocalPlannerNode::inMap(path::Path path) const {
-  if (path.frame_id == options_.map_frame) return path;
-  const auto points = transforms_.pointsIn(options_.map_frame, path.frame_id, positionsOf(path));
+// Of a frame that moves with the vehicle where that was at `stamp`, 0: is now.
+path::Path LocalPlannerNode::inMap(path::Path path, const ros::Time& stamp) const {
+  const std::string& map = options_.map_frame;
+  if (path.frame_id == map) return path;
+  transforms_.checkNotOlder(map, path.frame_id, ros::Time::now(), options_.tf_timeout);
+  const bool moves = transforms_.movesWith(options_.base_frame, path.frame_id);
+  const auto points =
+      transforms_.pointsIn(map, path.frame_id, positionsOf(path), moves ? stamp : ros::Time());
   for (std::size_t i = 0; i < points.size(); ++i) path.poses[i].position = points[i];
   path.frame_id = options_.map_frame;
   return path;
@@ -351,7 +352,7 @@ PilotInput LocalPlannerNode::input(const ros::Time& now) {
 
 // All but the newest are seen first.
 void LocalPlannerNode::takeFrames(PilotInput& input, const ros::Time& now) {
-  frames_ = clouds_.take(transforms_, options_.map_frame, now);
+  frames_ = clouds_.take(transforms_, options_.map_frame, now, options_.pilot);
   for (std::size_t i = 0; i + 1 < frames_.size(); ++i) pilot_.see(frames_[i]);
   if (!frames_.empty()) input.frame = &frames_.back();
   if (options_.pilot.recover)

@@ -98,6 +98,7 @@ class LocalPlannerNode {
   void subscribe();
   void subscribeClouds();
   void startLog(const NodeFiles& files);
+  void flyFile(const NodeFiles& files);
   FlightAction::Hands hands();
   void noteHandover(unsigned handovers);
   void endGoalsUntilNow();
@@ -111,9 +112,10 @@ class LocalPlannerNode {
   bool noticeTime();
   bool isOfAnotherTime(const char* what, const ros::Time& stamp);
   path::Path pathIn(const nav_msgs::Path& message) const {
-    return transforms_.pathIn(message, options_.base_frame, options_.map_frame);
+    return transforms_.pathIn(message, options_.base_frame, options_.map_frame,
+                              options_.tf_timeout);
   }
-  path::Path inMap(path::Path path) const;
+  path::Path inMap(path::Path path, const ros::Time& stamp = ros::Time()) const;
   // `handovers`: handovers_ when it was given.
   void fly(const path::Path& path, bool along, unsigned handovers);
   void control();

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "grid_path_planner/base/decimal_text.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/common/network_text.h"
 
 namespace grid_path_planner::nodes {
@@ -37,11 +38,23 @@ void checkLocalPlannerOptions(const LocalPlannerOptions& options) {
     if (!ros::names::validate(topic, error)) throw base::InputError("cloud_topics: " + error);
 }
 
+void nameFrames(LocalPlannerOptions& options) {
+  options.map_frame = frameName(options.map_frame);
+  options.base_frame = frameName(options.base_frame);
+}
+
 std::vector<std::string> cloudTopics(const LocalPlannerOptions& options) {
   std::istringstream in(options.cloud_topics);
   std::vector<std::string> topics;
   for (std::string topic; in >> topic;) topics.push_back(topic);
   if (topics.empty()) topics = {"points"};
+  return topics;
+}
+
+std::vector<std::string> resolvedTopics(const ros::NodeHandle& nh,
+                                        const LocalPlannerOptions& options) {
+  std::vector<std::string> topics;
+  for (const std::string& topic : cloudTopics(options)) topics.push_back(nh.resolveName(topic));
   return topics;
 }
 

@@ -1,6 +1,8 @@
 // The parameters of the node `local_planner`.
 #pragma once
 
+#include <ros/node_handle.h>
+
 #include <string>
 #include <vector>
 
@@ -55,7 +57,8 @@ void visitOptions(LocalPlannerOptions& o, Visitor&& visit) {
   visit(
       "tf_timeout", o.tf_timeout,
       base::OptionInfo{"The vehicle stops while its newest pose is older; a younger one is carried "
-                       "on by the velocity",
+                       "on by the velocity. A path in another frame whose transform is older is "
+                       "refused",
                        "s", 0.01, 1.0});
   visit("control_rate", o.control_rate,
         base::OptionInfo{"How often the velocity is computed, by the wall clock; at least once in "
@@ -76,8 +79,14 @@ void visitOptions(LocalPlannerOptions& o, Visitor&& visit) {
 // checkPilotOptions refuses, frames that are empty, and topics that are no names.
 void checkLocalPlannerOptions(const LocalPlannerOptions& options);
 
+// Names its frames as tf does: "/map" is "map".
+void nameFrames(LocalPlannerOptions& options);
+
 // Those of cloud_topics, or `points`.
 std::vector<std::string> cloudTopics(const LocalPlannerOptions& options);
+// The same, resolved.
+std::vector<std::string> resolvedTopics(const ros::NodeHandle& nh,
+                                        const LocalPlannerOptions& options);
 // camera_info beside a topic of clouds.
 std::string cameraTopic(const std::string& cloud_topic);
 

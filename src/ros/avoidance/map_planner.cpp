@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <map>
 #include <utility>
 
 #include "grid_path_planner/base/task_queue.h"
@@ -24,6 +25,7 @@ namespace {
 
 constexpr double kFramePeriod = 0.45;  // s
 constexpr int kMostWaiting = 8;        // frames
+constexpr double kElsewhere = 1.0;  // m: an answer for a place that far away is of another flight
 
 // A task that failed, of which the log told, leaves its promise broken.
 FoundPath pathOf(std::future<FoundPath> answered) {
@@ -42,8 +44,10 @@ class MapPlanner::Work {
   explicit Work(const PilotOptions& options) : map_(options) {}
 
   void see(const Frame& frame, const PilotOptions& options) {
-    if (frame.time - kept_at_ < kFramePeriod || waiting_ >= kMostWaiting) return;
-    kept_at_ = frame.time;
+    const auto kept = kept_at_.find(frame.sensor);
+    const bool is_early = kept != kept_at_.end() && frame.time - kept->second < kFramePeriod;
+    if (is_early || waiting_ >= kMostWaiting) return;
+    kept_at_[frame.sensor] = frame.time;
     ++waiting_;
     queue_.post([this, frame, options](const base::StopSource& stop) {
       --waiting_;
@@ -55,7 +59,7 @@ class MapPlanner::Work {
   }
 
   std::optional<FoundPath> plan(const Eigen::Vector3d& from, const Eigen::Vector3d& goal) {
-    if (!asked_.valid() || goal != goal_) ask(from, goal);
+    if (!asked_.valid() || goal != goal_ || (from - from_).norm() > kElsewhere) ask(from, goal);
     if (asked_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
     return pathOf(std::move(asked_));
   }
@@ -64,6 +68,7 @@ class MapPlanner::Work {
   void ask(const Eigen::Vector3d& from, const Eigen::Vector3d& goal) {
     const auto answer = std::make_shared<std::promise<FoundPath>>();
     asked_ = answer->get_future();
+    from_ = from;
     goal_ = goal;
     const auto work = [this, from, goal, answer](const base::StopSource& stop) {
       answer->set_value(map_.plan(from, goal, stop));
@@ -72,10 +77,10 @@ class MapPlanner::Work {
   }
 
   seen_map::SeenMap map_;
-  double kept_at_ = -1e9;  // s
+  std::map<int, double> kept_at_;  // s, by sensor
   std::atomic<int> waiting_{0};
   std::future<FoundPath> asked_;
-  Eigen::Vector3d goal_ = Eigen::Vector3d::Zero();  // of what is asked
+  Eigen::Vector3d from_ = Eigen::Vector3d::Zero(), goal_ = from_;  // of what is asked
   base::TaskQueue queue_{[](const std::string& error) { tellGivenUp("The map's work", error); }};
 };
 

@@ -25,7 +25,7 @@ class MapPlanner {
   // Gives up what is planned.
   ~MapPlanner();
 
-  // Takes two frames a second, and fewer while it cannot keep up.
+  // Takes two frames a second of each sensor, and fewer while it cannot keep up.
   void see(const avoidance::Frame& frame, const avoidance::PilotOptions& options);
   void forget();
 

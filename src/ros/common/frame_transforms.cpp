@@ -213,7 +213,7 @@ void FrameLookup::checkKnown(const std::string& frame, const std::string& vehicl
 }
 
 Path FrameLookup::pathIn(const nav_msgs::Path& message, const std::string& vehicle,
-                         const std::string& map_frame) const {
+                         const std::string& map_frame, double max_age) const {
   const std::string frame = frameInMap(message.header.frame_id, map_frame);
   checkKnown(frame, vehicle);
   nav_msgs::Path path = message;
@@ -224,6 +224,7 @@ Path FrameLookup::pathIn(const nav_msgs::Path& message, const std::string& vehic
     if (own.empty() || own == frame) continue;
     try {
       poseFromMessage(pose.pose);
+      checkNotOlder(frame, own, ros::Time::now(), max_age);
       tf2::doTransform(pose.pose, pose.pose, transform(frame, own));
     } catch (const TransformError& error) {
       throw InputError("pose " + std::to_string(i + 1) +
@@ -278,10 +279,12 @@ void FrameLookup::checkNotOlder(const std::string& to, const std::string& from,
 }
 
 std::vector<Eigen::Vector3d> FrameLookup::pointsIn(const std::string& to, const std::string& from,
-                                                   std::vector<Eigen::Vector3d> points) const {
+                                                   std::vector<Eigen::Vector3d> points,
+                                                   const ros::Time& stamp) const {
   if (from == to) return points;
   try {
-    const geometry_msgs::TransformStamped moving = transform(to, from);
+    geometry_msgs::TransformStamped moving = transform(to, from);
+    if (!stamp.isZero() && stamp < moving.header.stamp) moving = transform(to, from, stamp);
     for (Eigen::Vector3d& point : points) {
       geometry_msgs::Point message;
       message.x = point.x();

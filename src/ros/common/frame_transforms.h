@@ -69,9 +69,9 @@ class FrameLookup {
 
   // The path in the frame of its header, `map_frame` where that names none; poses that name another frame are
   // transformed. Throws InputError for a frame that tf does not know (while it knows `vehicle`), poses that cannot be
-  // transformed, and what pathFromMessage refuses.
+  // transformed, or by a transform older than `max_age` seconds only, and what pathFromMessage refuses.
   path::Path pathIn(const nav_msgs::Path& message, const std::string& vehicle,
-                    const std::string& map_frame) const;
+                    const std::string& map_frame, double max_age) const;
 
   // The frame by which tf joins the two: above both, or one of them; empty where nothing does.
   std::string commonFrame(const std::string& one, const std::string& other) const;
@@ -84,9 +84,11 @@ class FrameLookup {
   void checkNotOlder(const std::string& to, const std::string& from, const ros::Time& now,
                      double max_age) const;
 
-  // Points of the frame `from` in the frame `to`. Throws TransformError.
+  // Points of the frame `from` in the frame `to`, by what was at `stamp`, or the latest where that is older, or `stamp` 0.
+  // Throws TransformError.
   std::vector<Eigen::Vector3d> pointsIn(const std::string& to, const std::string& from,
-                                        std::vector<Eigen::Vector3d> points) const;
+                                        std::vector<Eigen::Vector3d> points,
+                                        const ros::Time& stamp = ros::Time()) const;
 
   // Whether tf has `frame` fixed to the vehicle: its own frame, or one below it that no moving transform joins to it,
   // as a dock's is that its camera sees.

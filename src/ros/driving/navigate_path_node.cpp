@@ -238,8 +238,7 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   try {
-    drive(transforms_.pathIn(message, options_.base_frame, options_.map_frame), Join::NEAREST,
-          handovers_);
+    drive(pathIn(message), Join::NEAREST, handovers_);
     given_goals_.drive(message);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
@@ -260,7 +259,7 @@ void NavigatePathNode::onGoal() {
             throw InputError("a goal must give a path or a filename, got both");
           if (goal->path.poses.empty())
             throw InputError("a goal must give a path of at least one waypoint, or a filename");
-          return transforms_.pathIn(goal->path, options_.base_frame, options_.map_frame);
+          return pathIn(goal->path);
         },
         Join::NEAREST, handovers_);
   }

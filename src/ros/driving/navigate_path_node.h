@@ -92,6 +92,10 @@ class NavigatePathNode {
   void drive(const path::Path& path, following::Join join, unsigned handovers);
 
   void onPath(const nav_msgs::Path& message);
+  path::Path pathIn(const nav_msgs::Path& message) const {
+    return transforms_.pathIn(message, options_.base_frame, options_.map_frame,
+                              options_.tf_timeout);
+  }
   void onGoal();
   void replaceGoal();
   void onPreempt();

@@ -50,7 +50,7 @@ void askFrames(const nodes::FrameLookup& frames, const nav_msgs::Path& path) {
     }
   };
   mayFail([&] {
-    const path::Path moved = frames.pathIn(path, "base_link", "map");
+    const path::Path moved = frames.pathIn(path, "base_link", "map", 10.0);
     mustHold(moved.poses.size() == path.poses.size(), "every pose has its place");
     frames.movesWith("base_link", moved.frame_id);
     frames.pointsIn("map", moved.frame_id, {{1.0, 2.0, 3.0}});

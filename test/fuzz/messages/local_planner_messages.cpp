@@ -62,7 +62,7 @@ std::vector<avoidance::Frame> framesOf(const sensor_msgs::CameraInfo& camera,
   nodes::CloudFrames frames({"points"});
   frames.setCamera(0, camera);
   frames.add(0, boost::make_shared<sensor_msgs::PointCloud2>(cloud));
-  return frames.take(transforms, "map", kNowOfClouds);
+  return frames.take(transforms, "map", kNowOfClouds, {});
 }
 
 FUZZ_TARGET(local_planner_messages, seedsOfFlights) {

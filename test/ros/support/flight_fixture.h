@@ -35,7 +35,7 @@ inline bool drives(const geometry_msgs::Twist& v) {
   return v.linear.x != 0.0 || v.linear.y != 0.0 || v.linear.z != 0.0;
 }
 
-// The sky about a vehicle that does not move: clouds in which no pixel measures anything, tf and /clock, any
+// The sky about a vehicle that does not move by itself: clouds in which no pixel measures anything, tf and /clock, any
 // of which may cease.
 class Sky {
  public:
@@ -56,6 +56,7 @@ class Sky {
   void jumpTo(double time) { time_ = time; }
 
   std::atomic<bool> clock_runs{true}, tf_comes{true}, clouds_come{true};
+  std::atomic<double> vehicle_x{0.0};  // m
 
   void sendCloud(const ros::Time& stamp) {
     sensor_msgs::PointCloud2 cloud;
@@ -93,6 +94,7 @@ class Sky {
     vehicle.header.frame_id = "map";
     vehicle.header.stamp = stamp;
     vehicle.child_frame_id = "base_link";
+    vehicle.transform.translation.x = vehicle_x;
     vehicle.transform.rotation.w = 1.0;
     geometry_msgs::TransformStamped camera = vehicle;
     camera.child_frame_id = "camera";
@@ -160,9 +162,10 @@ class FlightTest : public testing::Test {
     goal.pose.orientation.w = 1.0;
     goals_.publish(goal);
   }
-  void sendPath(const ros::Time& stamp, const std::vector<double>& along) {
+  void sendPath(const ros::Time& stamp, const std::vector<double>& along,
+                const std::string& frame = "map") {
     nav_msgs::Path path;
-    path.header.frame_id = "map";
+    path.header.frame_id = frame;
     path.header.stamp = stamp;
     for (const double x : along) {
       path.poses.emplace_back();
