@@ -20,6 +20,7 @@
 #include <optional>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "ros/common/ending/held_name.h"
 #include "ros/common/ending/manager_end.h"
 #include "ros/common/guarded_queue.h"
 #include "ros/common/master/master_watch.h"
@@ -40,6 +41,7 @@ class NodeletShell : public nodelet::Nodelet {
   Node& node() { return *node_; }
 
   void onInit() override {
+    name_.emplace(getName());  // before the lock that the one before it leaves under
     nh_ = getNodeHandle();
     private_nh_ = getPrivateNodeHandle();
     queue_ = std::make_unique<GuardedQueue>(*nh_.getCallbackQueue());
@@ -58,6 +60,7 @@ class NodeletShell : public nodelet::Nodelet {
   }
 
  private:
+  std::optional<HeldName> name_;  // first: it outlives the node
   ros::NodeHandle nh_, private_nh_;
   std::unique_ptr<GuardedQueue> queue_;
 
