@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "grid/fewer_rects.h"
 #include "grid_path_planner/grid/cell.h"
 
 namespace grid_path_planner::grid {
@@ -107,6 +108,10 @@ class Tiles {
 }  // namespace
 
 std::vector<CellRect> disjointRects(const std::vector<CellRect>& rects) {
+  return fewerRects(rects, kMostRects);
+}
+
+std::vector<CellRect> fewerRects(const std::vector<CellRect>& rects, std::size_t most) {
   std::vector<CellRect> filled;
   CellRect all;
   for (const CellRect& rect : rects)
@@ -114,14 +119,14 @@ std::vector<CellRect> disjointRects(const std::vector<CellRect>& rects) {
       filled.push_back(rect);
       all = all.hull(rect);
     }
-  if (filled.size() <= kMostRects && areDisjoint(filled)) return filled;
+  if (filled.size() <= most && areDisjoint(filled)) return filled;
   int side = kTileSide;
   while (std::max(all.width, all.height) / side > kMostTilesAcross) side *= 2;
   for (;; side *= 2) {
     Tiles tiles(all, side);
     for (const CellRect& rect : filled) tiles.add(rect);
     std::vector<CellRect> joined = tiles.joined();
-    if (joined.size() <= kMostRects) return joined;
+    if (joined.size() <= most) return joined;
   }
 }
 

@@ -42,6 +42,7 @@ LENT = {
     "following/go_to/navigator_options.h": {"ros_driving"},
     "path/zigzags.h": {"planning"},
     "grid/float_decimal.h": {"ros_common"},
+    "grid/fewer_rects.h": {"ros_common"},
     "grid/map_differences.h": {"planning", "ros_common", "ros_planning"},
     "grid/formats/rectangle_map_file.h": {"planners"},
     "following/speed_limit.h": {"ros_driving"},

@@ -319,6 +319,7 @@ void LocalPlannerNode::fly(const path::Path& path, bool along, unsigned handover
     pilot_.setPath(positionsOf(path));
   else
     pilot_.setRoute(positionsOf(path));
+  map_.dropPlan();
   publisher_.beginFlight();
   flies_ = true;
   if (!hold_.begin(handovers)) pilot_.cancel(kTakenOver);

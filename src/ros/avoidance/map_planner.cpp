@@ -25,7 +25,6 @@ namespace {
 
 constexpr double kFramePeriod = 0.45;  // s
 constexpr int kMostWaiting = 8;        // frames
-constexpr double kElsewhere = 1.0;  // m: an answer for a place that far away is of another flight
 
 // A task that failed, of which the log told, leaves its promise broken.
 FoundPath pathOf(std::future<FoundPath> answered) {
@@ -59,16 +58,17 @@ class MapPlanner::Work {
   }
 
   std::optional<FoundPath> plan(const Eigen::Vector3d& from, const Eigen::Vector3d& goal) {
-    if (!asked_.valid() || goal != goal_ || (from - from_).norm() > kElsewhere) ask(from, goal);
+    if (!asked_.valid() || goal != goal_) ask(from, goal);
     if (asked_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
     return pathOf(std::move(asked_));
   }
+
+  void dropPlan() { asked_ = {}; }
 
  private:
   void ask(const Eigen::Vector3d& from, const Eigen::Vector3d& goal) {
     const auto answer = std::make_shared<std::promise<FoundPath>>();
     asked_ = answer->get_future();
-    from_ = from;
     goal_ = goal;
     const auto work = [this, from, goal, answer](const base::StopSource& stop) {
       answer->set_value(map_.plan(from, goal, stop));
@@ -80,7 +80,7 @@ class MapPlanner::Work {
   std::map<int, double> kept_at_;  // s, by sensor
   std::atomic<int> waiting_{0};
   std::future<FoundPath> asked_;
-  Eigen::Vector3d from_ = Eigen::Vector3d::Zero(), goal_ = from_;  // of what is asked
+  Eigen::Vector3d goal_ = Eigen::Vector3d::Zero();  // of what is asked
   base::TaskQueue queue_{[](const std::string& error) { tellGivenUp("The map's work", error); }};
 };
 
@@ -98,6 +98,10 @@ std::optional<FoundPath> MapPlanner::plan(const Eigen::Vector3d& from,
   return work_ ? work_->plan(from, goal) : FoundPath();
 }
 
+void MapPlanner::dropPlan() {
+  if (work_) work_->dropPlan();
+}
+
 #else
 
 class MapPlanner::Work {};
@@ -111,6 +115,8 @@ void MapPlanner::see(const Frame&, const PilotOptions&) {}
 std::optional<FoundPath> MapPlanner::plan(const Eigen::Vector3d&, const Eigen::Vector3d&) {
   return FoundPath();
 }
+
+void MapPlanner::dropPlan() {}
 
 #endif
 

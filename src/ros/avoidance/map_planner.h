@@ -32,6 +32,8 @@ class MapPlanner {
   // None while it is planned; the answer is given once, and the next question is another.
   std::optional<std::vector<Eigen::Vector3d>> plan(const Eigen::Vector3d& from,
                                                    const Eigen::Vector3d& goal);
+  // What was asked for is of no use any more: another flight begins.
+  void dropPlan();
 
  private:
   class Work;

@@ -31,13 +31,14 @@ void LayeredMapPublisher::publishMap(LayeredMap& map, const std::string& frame_i
   const bool new_geometry = map.takeNewGeometry();
   const std::vector<CellRect> changed = map.takeChanged();
   const bool whole = topic_.takeNewSubscriber() || new_geometry || owed ||
-                     topic_.wholeMapIsDue(full_map_period) || changed.size() > kMostUpdatesAtOnce ||
+                     topic_.wholeMapIsDue(full_map_period) ||
                      (!changed.empty() && topic_.needsWholeMaps());
   const ros::Time now = ros::Time::now();
   if (whole)
     topic_.send(occupancyToMessage(map.merged(), frame_id, now));
   else
-    for (const CellRect& rect : changed) topic_.send(updateOf(map.merged(), rect, frame_id, now));
+    for (const CellRect& rect : updateRects(changed))
+      topic_.send(updateOf(map.merged(), rect, frame_id, now));
   sent_ = true;
 }
 

@@ -1,5 +1,7 @@
 #include "ros/layers/scan_queue.h"
 
+#include <algorithm>
+
 #include "base/seconds_since.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
@@ -15,7 +17,6 @@ namespace {
 constexpr char kNotNewer[] = "it is not newer than the one before";
 constexpr std::size_t kMostWaiting = 20;
 constexpr double kOldest = 10.0;  // s: as long as tf is kept
-constexpr double kAhead = 0.5;    // s: more is another clock
 }  // namespace
 
 void ScanQueue::check(const LaserScan& scan) const {
@@ -25,7 +26,7 @@ void ScanQueue::check(const LaserScan& scan) const {
   if (scan.header.stamp <= newest_) throw InputError(kNotNewer);
   const double age = secondsBetween(scan.header.stamp, ros::Time::now());
   if (age > kOldest) throw InputError("it is " + std::to_string(age) + " s old");
-  if (age < -kAhead) throw InputError("it is stamped " + std::to_string(-age) + " s ahead");
+  if (age < -kOldest) throw InputError("it is stamped " + std::to_string(-age) + " s ahead");
 }
 
 void ScanQueue::add(const LaserScan::ConstPtr& scan) {
@@ -40,7 +41,11 @@ void ScanQueue::add(const LaserScan::ConstPtr& scan) {
     record_.refuse("more than 20 wait for their transforms");
     waiting_.pop_front();
   }
-  waiting_.push_back({scan, Clock::now()});
+  const auto later = std::upper_bound(waiting_.begin(), waiting_.end(), scan->header.stamp,
+                                      [](const ros::Time& stamp, const Waiting& other) {
+                                        return stamp < other.scan->header.stamp;
+                                      });
+  waiting_.insert(later, {scan, Clock::now()});
 }
 
 bool ScanQueue::isOver(const Waiting& waiting, double timeout) const {
@@ -57,6 +62,7 @@ std::optional<ScanQueue::Ready> ScanQueue::take(const std::string& frame, double
       continue;
     }
     try {
+      if (stamp > ros::Time::now()) throw TransformError("it is stamped ahead of ROS time");
       const auto transform =
           transforms_.transform(frame, frameName(first.scan->header.frame_id), stamp);
       waiting_.pop_front();

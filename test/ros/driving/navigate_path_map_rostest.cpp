@@ -155,10 +155,9 @@ TEST_F(NavigateMap, WithoutOneItDoesNotStartAndSaysWhatToDo) {
 // It drove on by a map that it knew to lack changes, for ever where its publisher sends no whole map when it is asked.
 TEST_F(NavigateMap, ALostUpdateThatIsNotMendedHoldsTheDrive) {
   updates_.shutdown();
-  auto numbered =
-      ros::AdvertiseOptions::create<map_msgs::OccupancyGridUpdate>(  // of 10 others were lost
-          "projected_map_updates", 1000, {}, {}, {}, nullptr);
-  numbered.has_header = false;  // header.seq is the test's
+  auto numbered = ros::AdvertiseOptions::create<map_msgs::OccupancyGridUpdate>(
+      "projected_map_updates", 1000, {}, {}, {}, nullptr);  // in a shorter queue others are lost
+  numbered.has_header = false;                              // header.seq is the test's
   updates_ = nh_.advertise(numbered);
   ASSERT_TRUE(test::waitFor([&] {
     return std::abs(ros::Time::now().toSec() - world_.time()) < 1.0;

@@ -162,10 +162,9 @@ class FlightTest : public testing::Test {
     goal.pose.orientation.w = 1.0;
     goals_.publish(goal);
   }
-  void sendPath(const ros::Time& stamp, const std::vector<double>& along,
-                const std::string& frame = "map") {
+  void sendPath(const ros::Time& stamp, const std::vector<double>& along) {
     nav_msgs::Path path;
-    path.header.frame_id = frame;
+    path.header.frame_id = "map";
     path.header.stamp = stamp;
     for (const double x : along) {
       path.poses.emplace_back();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "grid/fewer_rects.h"
 #include "ros/common/outgoing/latched_message.h"
 #include "ros/common/outgoing/map_announcement.h"
 
@@ -12,6 +13,17 @@ namespace grid_path_planner::nodes {
 
 using grid::CellRect;
 using grid::OccupancyGrid;
+
+namespace {
+
+constexpr int kQueue = 100;  // updates that wait for a subscriber
+constexpr std::size_t kMostAtOnce = kQueue / 2;
+
+}  // namespace
+
+std::vector<CellRect> updateRects(const std::vector<CellRect>& changed) {
+  return grid::fewerRects(changed, kMostAtOnce);
+}
 
 map_msgs::OccupancyGridUpdate updateOf(const CellRect& cells, const std::string& frame_id,
                                        const ros::Time& stamp) {
@@ -42,7 +54,7 @@ MapTopic::MapTopic(ros::NodeHandle nh, const std::string& topic, bool latch,
   maps_ = nh.advertise<nav_msgs::OccupancyGrid>(topic, 5, adding(of_maps_), removing(of_maps_), {},
                                                 latch);
   updates_ = nh.advertise<map_msgs::OccupancyGridUpdate>(
-      topic + "_updates", 2 * kMostUpdatesAtOnce, adding(of_updates_), removing(of_updates_));
+      topic + "_updates", kQueue, adding(of_updates_), removing(of_updates_));
 }
 
 ros::SubscriberStatusCallback MapTopic::adding(Subscribers& to) {

@@ -17,11 +17,11 @@
 #include <ros/publisher.h>
 
 #include <chrono>
-#include <cstddef>
 #include <functional>
 #include <mutex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "grid_path_planner/grid/occupancy.h"
 
@@ -34,8 +34,8 @@ map_msgs::OccupancyGridUpdate updateOf(const grid::CellRect& cells, const std::s
 map_msgs::OccupancyGridUpdate updateOf(const grid::OccupancyGrid& map, const grid::CellRect& cells,
                                        const std::string& frame_id, const ros::Time& stamp);
 
-// Of more than so many updates at once some might be lost: a whole map is sent instead. Half of what waits for a subscriber.
-constexpr std::size_t kMostUpdatesAtOnce = 50;
+// The rectangles of the updates for what changed: so few that none is lost which wait for a subscriber at once.
+std::vector<grid::CellRect> updateRects(const std::vector<grid::CellRect>& changed);
 
 class MapTopic {
  public:

@@ -92,14 +92,14 @@ void PlanningMapPublisher::publish(const CostGrid& costs, const CostChanges& cha
     return;
   }
   const auto cells = changed(costs, changes, frame_id);
-  const bool whole = topic_.takeNewSubscriber() || !cells || cells->size() > kMostUpdatesAtOnce ||
-                     topic_.wholeMapIsDue(full_map_period);
+  const bool whole = topic_.takeNewSubscriber() || !cells || topic_.wholeMapIsDue(full_map_period);
   const ros::Time now = ros::Time::now();
   published_.reset();  // until it is sent
   if (whole || (!cells->empty() && topic_.needsWholeMaps()))
     topic_.send(planningMapMessage(costs, frame_id, now));
   else
-    for (const auto& update : planningMapUpdates(costs, *cells, frame_id, now)) topic_.send(update);
+    for (const auto& update : planningMapUpdates(costs, updateRects(*cells), frame_id, now))
+      topic_.send(update);
   published_ = Published{costs.revision(), costs.maxWeight(), frame_id};
 }
 
