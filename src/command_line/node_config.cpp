@@ -7,7 +7,7 @@
 
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/base/yaml_file.h"
-#include "ros/common/parameters.h"
+#include "ros/guard/parameters.h"
 #include "ros/planning/path_planner_options.h"
 
 namespace grid_path_planner::command_line {

@@ -12,7 +12,7 @@ with open("/etc/os-release", encoding="utf-8") as release:
 HEADER = "// What it is for.\n#pragma once\n%s\nnamespace grid_path_planner {}\n"
 FLOORS = {"base": "gpp_add_room(base)", "grid": "gpp_add_room(grid ROOMS base LIBRARIES x)",
           "planners": "gpp_add_room(planners ROOMS grid)",
-          "ros/common": "gpp_add_room(ros_common FOLDER ros/common ROOMS grid)"}
+          "ros/guard": "gpp_add_room(ros_guard FOLDER ros/guard ROOMS grid)"}
 
 
 def complaints(check, name=None, text=None, more=()):
@@ -24,7 +24,7 @@ def complaints(check, name=None, text=None, more=()):
             "include/grid_path_planner/base/errors.h": HEADER % "#include <string>",
             "include/grid_path_planner/grid/cell.h":
                     HEADER % '#include "grid_path_planner/base/errors.h"',
-            "src/ros/common/node.cpp": "#include <ros/ros.h>\nnamespace grid_path_planner {}\n",
+            "src/ros/guard/node.cpp": "#include <ros/ros.h>\nnamespace grid_path_planner {}\n",
             "src/grid/halved.cpp": "namespace grid_path_planner {\nint halved(int all) {\n"
                                        "  return all / 2;\n}\n}\n",
             "include/grid_path_planner/base/stop_token.h":
@@ -103,7 +103,7 @@ class Includes(unittest.TestCase):
     def test_ros_below_its_floor(self):
         for header in ("<ros/ros.h>", "<nav_msgs/Path.h>", "<tf2_ros/buffer.h>", "<grid_path_planner/PlanStatistics.h>"):
             self.assertEqual(len(self.planted("grid", header)), 1, header)
-            self.assertEqual(self.planted("ros/common", header), [], header)
+            self.assertEqual(self.planted("ros/guard", header), [], header)
 
     def test_other_folders_rooms_and_hashes_of_sources(self):
         hashed = {"src/grid/CMakeLists.txt": FLOORS["grid"] + "\ngpp_add_sources_hash(grid grid)"}  # and base

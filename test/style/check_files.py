@@ -12,7 +12,7 @@ NAMESPACE = re.compile(r"^namespace grid_path_planner(::\w+)? \{", re.MULTILINE)
 RADIUS = re.compile(r'\.radius = |planner/radius"')
 OUTSIDE = re.compile(r'\.outside = |planner/outside"')
 TIMER = re.compile(r"(?:\.|->)create(?:Wall|Steady)?Timer\(")
-TIMERS = ("src/ros/common/scheduling/guarded_timer.cpp", "src/ros/common/action/action_topics.h")  # the latter's never starts
+TIMERS = ("src/ros/guard/scheduling/guarded_timer.cpp", "src/ros/guard/action/action_topics.h")  # the latter's never starts
 THROTTLE = re.compile(r"ROS_\w+_THROTTLE\(")
 MAIN = re.compile(r"^int main\(", re.MULTILINE)
 

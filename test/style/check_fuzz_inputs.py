@@ -14,7 +14,7 @@ HANDLERS = [re.compile(pattern) for pattern in (
     r"\bReconfigurable<\w+,\s*" + TYPE + r"> server_")]
 READER = re.compile(r"\b(readWholeFile|loadYamlFile|fopen|popen|receiveLine)\(|\bifstream\b|\bBagReader \w+|\bRegularFile\b[ &(]")
 # Those that all others use.
-DEFINITIONS = ("base/files.cpp", "ros/common/incoming/", "ros/common/parameters.h")
+DEFINITIONS = ("base/files.cpp", "ros/guard/incoming/", "ros/guard/parameters.h")
 # What comes past the judges of lengths.
 UNCHECKED = re.compile(r"\b(?:nh|nh_|node|private_nh|own)\.(subscribe|advertiseService)\b")
 TARGET = re.compile(r"^FUZZ_TARGET\((\w+),", re.MULTILINE)

@@ -156,7 +156,7 @@ CONTEXT = {
     "input_record.h": "extern std::exception error;",
     "speed_limit_receiver.h": """struct Loop { void setSpeedLimits(const SpeedLimits&); };
         extern ros::NodeHandle nh; extern Loop loop;""",
-    "scan_messages.h": """#include "ros/common/frame_transforms.h"
+    "scan_messages.h": """#include "ros/input/frame_transforms.h"
         extern sensor_msgs::LaserScan::ConstPtr message; extern FrameTransforms transforms; extern std::string frame;
         extern ros::Time stamp; extern bool inf_clears;""",
     "scan_queue.h": """extern ScanQueue queue; extern sensor_msgs::LaserScan::ConstPtr message; extern double timeout;
@@ -250,7 +250,7 @@ CONTEXT = {
     "repair_search.h": "extern const CostGrid& map; extern const BackwardNodes& nodes;"
                        "extern BackwardNodes::Index start; extern SearchKey consistent_below;"
                        "extern SearchResult result; extern StopPoll poll; extern std::uint64_t most;",
-    "file_folder.h": '#include "ros/common/file_kinds.h"\nextern std::string text;',
+    "file_folder.h": '#include "ros/messages/file_kinds.h"\nextern std::string text;',
     "frame_transforms.h": "extern ros::NodeHandle nh; extern double limit;",
     "backward_nodes.h": "extern const BackwardNodes& nodes; extern BackwardNodes::Index index;",
     "backward_search_tree.h": "extern const CostGrid &map, &old_map, &new_map; extern const MovePruning& moves;"
@@ -284,7 +284,7 @@ CONTEXT = {
     "node_files.h": """#include "grid_path_planner/NavigatePathGoal.h"
         #include "grid_path_planner/SaveWaypoints.h"
         #include "grid_path_planner/path/waypoint_file.h"
-        #include "ros/common/file_kinds.h"
+        #include "ros/messages/file_kinds.h"
         extern NodeFiles files; extern NavigatePathGoal goal; extern SaveWaypoints::Request request;""",
     "node_heap.h": "struct Node {}; extern Node node; extern double f, limit;",
     "occupancy_bricks.h": "extern OccupancyBricks bricks; extern std::uint16_t x, y, z;extern Brick content;",
@@ -307,7 +307,7 @@ CONTEXT = {
     "plan_replay.h": """#include <iostream>
         extern std::vector<PlanRecord> records; extern MapsByChecksum maps;""",
     "map_checksum.h": """#include "grid_path_planner/PlanRecord.h"
-        #include "ros/common/map_receiver.h"
+        #include "ros/input/map_receiver.h"
         extern grid::OccupancyGrid map; extern grid::CellRect rect; extern map_msgs::OccupancyGridUpdate update;
         extern PlanRecord record;""",
     "recorded_maps.h": """using grid::OccupancyGrid; extern nav_msgs::OccupancyGrid message;

@@ -33,9 +33,9 @@ INPUTS = {
     "path/waypoint_file.cpp": {FILE: "waypoint_file"},
     "path/waypoint_formats/waypoint_formats.cpp": {FILE: "uuv_waypoints pose_array csv_waypoints geojson_waypoints"},
     "planners/rectangles/rectangle_file.cpp": {FILE: "rectangle_file rectangle_lists"},
-    "ros/common/bag.cpp": {FILE: "bag_file"},
-    "ros/common/bag_reader.cpp": {FILE: "bag_file"},
-    "ros/common/node_arguments.cpp": {FILE: Without("one byte is read, and not looked at")},
+    "ros/messages/bag.cpp": {FILE: "bag_file"},
+    "ros/messages/bag_reader.cpp": {FILE: "bag_file"},
+    "ros/guard/node_arguments.cpp": {FILE: Without("one byte is read, and not looked at")},
     "ros/localization/kept_heading.cpp": {FILE: "kept_heading"},
     "ros/localization/navigation_bag.cpp": {FILE: "navigation_bag"},
     "ros/mapping/map_autosave.cpp": {FILE: "kept_map octree_file"},
@@ -66,17 +66,17 @@ INPUTS = {
         "nav_msgs::Odometry": "odometry_message", "nav_msgs::Path": "local_planner_messages given_goals frame_messages",
         "sensor_msgs::CameraInfo": "local_planner_messages", "sensor_msgs::PointCloud2": "local_planner_messages",
         "std_srvs::Trigger": NO_REQUEST},
-    "ros/common/action/action_caller.h": {
+    "ros/guard/action/action_caller.h": {
         "ActionFeedback": Part(("claimed_lengths go_to_pose_messages", "those of both actions")),
         "ActionResult": Part(("claimed_lengths go_to_pose_messages", "those of both actions")),
         "actionlib_msgs::GoalStatusArray": "goal_statuses"},
-    "ros/common/action/action_topics.h": {
+    "ros/guard/action/action_topics.h": {
         "Cancel": Part(("goal_stamps claimed_lengths", "actionlib_msgs::GoalID")),
         "Goal": Part(("goal_stamps claimed_lengths", "the stamps; what is asked for has targets of its own"))},
-    "ros/common/action/navigate_path_action.h": {
+    "ros/messages/navigate_path_action.h": {
         "NavigatePathAction": Part(("claimed_lengths path_message file_name", "its path and its name of a file"))},
-    "ros/common/map_receiver.cpp": {"map_msgs::OccupancyGridUpdate": "map_update", "nav_msgs::OccupancyGrid": "map_message"},
-    "ros/common/transform_receiver.cpp": {"tf2_msgs::TFMessage": "transform_message frame_messages rival_transforms"},
+    "ros/input/map_receiver.cpp": {"map_msgs::OccupancyGridUpdate": "map_update", "nav_msgs::OccupancyGrid": "map_message"},
+    "ros/input/transform_receiver.cpp": {"tf2_msgs::TFMessage": "transform_message frame_messages rival_transforms"},
     "ros/driving/drive_loop.cpp": {"std_msgs::Bool": HANDED_OVER},
     "ros/driving/go_to_pose_node.cpp": {"GoToPoseOptions": "vehicle_config_message",
                                         "geometry_msgs::PoseStamped": Part(("go_to_pose_messages", "as a goal of the action")),

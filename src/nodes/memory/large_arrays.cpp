@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <new>
 
-#include "ros/common/process/huge_pages.h"
+#include "ros/guard/process/huge_pages.h"
 
 namespace grid_path_planner::nodes {
 namespace {

@@ -11,8 +11,8 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "path/pose_spacing.h"
-#include "ros/common/parameters.h"
-#include "ros/common/process/memory_limit_line.h"
+#include "ros/guard/parameters.h"
+#include "ros/guard/process/memory_limit_line.h"
 
 namespace grid_path_planner::nodes {
 

@@ -28,7 +28,7 @@
 #include "grid_path_planner/planning/plan.h"
 #include "planning/cost_planner.h"
 #include "ros/adapters/adapter_options.h"
-#include "ros/common/scheduling/log_throttle.h"
+#include "ros/guard/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 

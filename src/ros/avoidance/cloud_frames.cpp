@@ -8,8 +8,8 @@
 #include "grid_path_planner/avoidance/pilot.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/clock.h"
-#include "ros/common/incoming/cloud_reader.h"
+#include "ros/guard/clock.h"
+#include "ros/messages/cloud_reader.h"
 
 namespace grid_path_planner::nodes {
 

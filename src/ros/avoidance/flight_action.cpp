@@ -9,8 +9,8 @@
 
 #include "base/current_error.h"
 #include "grid_path_planner/base/errors.h"
-#include "ros/common/guarded_queue.h"
-#include "ros/common/waypoint_reading.h"
+#include "ros/guard/guarded_queue.h"
+#include "ros/messages/waypoint_reading.h"
 
 namespace grid_path_planner::nodes {
 

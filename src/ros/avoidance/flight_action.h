@@ -18,8 +18,8 @@
 #include "grid_path_planner/avoidance/pilot.h"
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/path/path.h"
-#include "ros/common/action/navigate_path_action.h"
-#include "ros/common/node_files.h"
+#include "ros/guard/node_files.h"
+#include "ros/messages/navigate_path_action.h"
 
 namespace grid_path_planner::nodes {
 

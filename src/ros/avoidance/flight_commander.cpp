@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "ros/common/clock.h"
-#include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/master/system_state.h"
-#include "ros/common/velocity_message.h"
+#include "ros/guard/clock.h"
+#include "ros/guard/incoming/claimed_lengths.h"
+#include "ros/guard/master/system_state.h"
+#include "ros/messages/velocity_message.h"
 
 namespace grid_path_planner::nodes {
 

@@ -29,8 +29,8 @@
 #include "grid_path_planner/base/body_velocity.h"
 #include "ros/avoidance/flight_hold.h"
 #include "ros/avoidance/local_planner_options.h"
-#include "ros/common/outgoing/direct_publisher.h"
-#include "ros/common/scheduling/control_thread.h"
+#include "ros/guard/outgoing/direct_publisher.h"
+#include "ros/guard/scheduling/control_thread.h"
 
 namespace grid_path_planner::nodes {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "ros/common/master/master_diagnostics.h"
+#include "ros/guard/master/master_diagnostics.h"
 
 namespace grid_path_planner::nodes {
 namespace {

@@ -23,8 +23,8 @@
 #include <optional>
 #include <string>
 
-#include "ros/common/incoming/manual_control.h"
-#include "ros/common/master/master_watch.h"
+#include "ros/guard/master/master_watch.h"
+#include "ros/input/manual_control.h"
 
 namespace grid_path_planner::nodes {
 

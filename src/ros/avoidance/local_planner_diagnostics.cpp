@@ -1,6 +1,6 @@
 // What local_planner says in /diagnostics.
 #include "ros/avoidance/local_planner_node.h"
-#include "ros/common/scheduling/guarded_timer.h"
+#include "ros/guard/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 

@@ -9,14 +9,14 @@
 
 #include "grid_path_planner/LocalPlannerConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/file_kinds.h"
-#include "ros/common/guarded_queue.h"
-#include "ros/common/incoming/advertised_service.h"
-#include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/parameters.h"
-#include "ros/common/scheduling/guarded_timer.h"
-#include "ros/common/velocity_message.h"
-#include "ros/common/waypoint_reading.h"
+#include "ros/guard/guarded_queue.h"
+#include "ros/guard/incoming/advertised_service.h"
+#include "ros/guard/incoming/claimed_lengths.h"
+#include "ros/guard/parameters.h"
+#include "ros/guard/scheduling/guarded_timer.h"
+#include "ros/messages/file_kinds.h"
+#include "ros/messages/velocity_message.h"
+#include "ros/messages/waypoint_reading.h"
 
 namespace grid_path_planner::nodes {
 

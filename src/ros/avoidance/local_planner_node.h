@@ -63,13 +63,13 @@
 #include "ros/avoidance/local_planner_options.h"
 #include "ros/avoidance/logged_pilot.h"
 #include "ros/avoidance/map_planner.h"
-#include "ros/common/clock.h"
-#include "ros/common/frame_transforms.h"
-#include "ros/common/incoming/bounded_subscription.h"
-#include "ros/common/incoming/given_goals.h"
-#include "ros/common/master/command_claim.h"
-#include "ros/common/master/other_commanders.h"
-#include "ros/common/node_files.h"
+#include "ros/guard/clock.h"
+#include "ros/guard/incoming/bounded_subscription.h"
+#include "ros/guard/master/command_claim.h"
+#include "ros/guard/master/other_commanders.h"
+#include "ros/guard/node_files.h"
+#include "ros/input/frame_transforms.h"
+#include "ros/input/given_goals.h"
 
 namespace grid_path_planner {
 class LocalPlannerConfig;

@@ -1,5 +1,5 @@
 #include "ros/avoidance/local_planner_node.h"
-#include "ros/common/nodelet_shell.h"
+#include "ros/guard/nodelet_shell.h"
 
 namespace grid_path_planner::nodes {
 

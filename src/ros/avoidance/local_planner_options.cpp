@@ -6,7 +6,7 @@
 
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/network_text.h"
+#include "ros/guard/network_text.h"
 
 namespace grid_path_planner::nodes {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "grid_path_planner/avoidance/pilot_options.h"
-#include "ros/common/scheduling/realtime_priority.h"
+#include "ros/guard/scheduling/realtime_priority.h"
 
 namespace grid_path_planner::nodes {
 

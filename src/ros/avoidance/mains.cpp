@@ -1,7 +1,7 @@
 #include "ros/avoidance/mains.h"
 
 #include "ros/avoidance/local_planner_node.h"
-#include "ros/common/run_node.h"
+#include "ros/guard/run_node.h"
 
 namespace grid_path_planner::nodes {
 

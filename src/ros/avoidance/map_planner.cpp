@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "grid_path_planner/base/task_queue.h"
-#include "ros/common/guarded_queue.h"
+#include "ros/guard/guarded_queue.h"
 #include "seen_map/seen_map.h"
 #endif
 

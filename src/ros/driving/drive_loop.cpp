@@ -9,9 +9,9 @@
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/master/system_state.h"
-#include "ros/common/velocity_message.h"
+#include "ros/guard/incoming/claimed_lengths.h"
+#include "ros/guard/master/system_state.h"
+#include "ros/messages/velocity_message.h"
 
 namespace grid_path_planner::nodes {
 

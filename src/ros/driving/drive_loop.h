@@ -32,14 +32,14 @@
 
 #include "grid_path_planner/following/path_follower.h"
 #include "path/footprint/footprint.h"
-#include "ros/common/frame_transforms.h"
-#include "ros/common/incoming/manual_control.h"
-#include "ros/common/master/master_watch.h"
-#include "ros/common/outgoing/direct_publisher.h"
-#include "ros/common/scheduling/control_thread.h"
 #include "ros/driving/map_life.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/speed_limit_receiver.h"
+#include "ros/guard/master/master_watch.h"
+#include "ros/guard/outgoing/direct_publisher.h"
+#include "ros/guard/scheduling/control_thread.h"
+#include "ros/input/frame_transforms.h"
+#include "ros/input/manual_control.h"
 
 namespace grid_path_planner::nodes {
 

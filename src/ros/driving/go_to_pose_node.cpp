@@ -11,12 +11,12 @@
 #include "grid_path_planner/GoToPoseConfig.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/guarded_queue.h"
-#include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/outgoing/diagnostics_timer.h"
-#include "ros/common/parameters.h"
-#include "ros/common/scheduling/guarded_timer.h"
 #include "ros/driving/go_to_messages.h"
+#include "ros/guard/guarded_queue.h"
+#include "ros/guard/incoming/claimed_lengths.h"
+#include "ros/guard/outgoing/diagnostics_timer.h"
+#include "ros/guard/parameters.h"
+#include "ros/guard/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 

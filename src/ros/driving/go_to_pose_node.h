@@ -39,14 +39,14 @@
 #include "grid_path_planner/GoToStatus.h"
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/PlanPathAction.h"
-#include "ros/common/action/action_caller.h"
-#include "ros/common/clock.h"
-#include "ros/common/frame_transforms.h"
-#include "ros/common/guarded_queue.h"
-#include "ros/common/incoming/manual_control.h"
-#include "ros/common/master/command_claim.h"
 #include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/move_base_action.h"
+#include "ros/guard/action/action_caller.h"
+#include "ros/guard/clock.h"
+#include "ros/guard/guarded_queue.h"
+#include "ros/guard/master/command_claim.h"
+#include "ros/input/frame_transforms.h"
+#include "ros/input/manual_control.h"
 
 namespace grid_path_planner {
 class GoToPoseConfig;

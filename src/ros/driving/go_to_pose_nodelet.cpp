@@ -1,5 +1,5 @@
-#include "ros/common/nodelet_shell.h"
 #include "ros/driving/go_to_pose_node.h"
+#include "ros/guard/nodelet_shell.h"
 
 namespace grid_path_planner::nodes {
 

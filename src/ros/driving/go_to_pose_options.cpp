@@ -2,7 +2,7 @@
 
 #include <ros/names.h>
 
-#include "ros/common/network_text.h"
+#include "ros/guard/network_text.h"
 
 namespace grid_path_planner::nodes {
 

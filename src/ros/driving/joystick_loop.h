@@ -20,9 +20,9 @@
 #include <optional>
 #include <string>
 
-#include "ros/common/outgoing/direct_publisher.h"
-#include "ros/common/scheduling/control_thread.h"
 #include "ros/driving/teleop_joy_options.h"
+#include "ros/guard/outgoing/direct_publisher.h"
+#include "ros/guard/scheduling/control_thread.h"
 
 namespace grid_path_planner::nodes {
 

@@ -1,11 +1,11 @@
 #include "ros/driving/mains.h"
 
 #include "grid_path_planner/path/waypoint_file.h"
-#include "ros/common/ending/end_of_node.h"
-#include "ros/common/run_node.h"
 #include "ros/driving/go_to_pose_node.h"
 #include "ros/driving/navigate_path_node.h"
 #include "ros/driving/teleop_joy_node.h"
+#include "ros/guard/ending/end_of_node.h"
+#include "ros/guard/run_node.h"
 
 namespace grid_path_planner::nodes {
 

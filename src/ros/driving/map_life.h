@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/seconds_since.h"
-#include "ros/common/map_receiver.h"
+#include "ros/input/map_receiver.h"
 
 namespace grid_path_planner::nodes {
 

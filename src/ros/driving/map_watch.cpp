@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "ros/common/guarded_queue.h"
-#include "ros/common/master/xmlrpc_call.h"
+#include "ros/guard/guarded_queue.h"
+#include "ros/guard/master/xmlrpc_call.h"
 
 namespace grid_path_planner::nodes {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <thread>
 
-#include "ros/common/map_receiver.h"
 #include "ros/driving/map_life.h"
+#include "ros/input/map_receiver.h"
 
 namespace grid_path_planner::nodes {
 

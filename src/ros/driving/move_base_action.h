@@ -4,7 +4,7 @@
 #include <actionlib/server/action_server.h>
 #include <move_base_msgs/MoveBaseAction.h>
 
-#include "ros/common/action/action_topics.h"
+#include "ros/guard/action/action_topics.h"
 
 namespace actionlib {
 

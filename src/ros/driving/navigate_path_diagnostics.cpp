@@ -1,6 +1,6 @@
 // What navigate_path says in /diagnostics.
-#include "ros/common/master/master_diagnostics.h"
 #include "ros/driving/navigate_path_node.h"
+#include "ros/guard/master/master_diagnostics.h"
 
 namespace grid_path_planner::nodes {
 

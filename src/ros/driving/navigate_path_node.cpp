@@ -11,13 +11,13 @@
 
 #include "base/current_error.h"
 #include "grid_path_planner/NavigatePathConfig.h"
-#include "ros/common/guarded_queue.h"
-#include "ros/common/incoming/advertised_service.h"
-#include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/parameters.h"
-#include "ros/common/scheduling/guarded_timer.h"
-#include "ros/common/waypoint_reading.h"
 #include "ros/driving/follow_log.h"
+#include "ros/guard/guarded_queue.h"
+#include "ros/guard/incoming/advertised_service.h"
+#include "ros/guard/incoming/claimed_lengths.h"
+#include "ros/guard/parameters.h"
+#include "ros/guard/scheduling/guarded_timer.h"
+#include "ros/messages/waypoint_reading.h"
 
 namespace grid_path_planner::nodes {
 

@@ -43,17 +43,17 @@
 #include <vector>
 
 #include "grid_path_planner/base/task_queue.h"
-#include "ros/common/action/navigate_path_action.h"
-#include "ros/common/clock.h"
-#include "ros/common/frame_transforms.h"
-#include "ros/common/incoming/given_goals.h"
-#include "ros/common/master/command_claim.h"
-#include "ros/common/master/master_watch.h"
-#include "ros/common/master/other_commanders.h"
-#include "ros/common/node_files.h"
 #include "ros/driving/drive_loop.h"
 #include "ros/driving/map_watch.h"
 #include "ros/driving/navigate_path_options.h"
+#include "ros/guard/clock.h"
+#include "ros/guard/master/command_claim.h"
+#include "ros/guard/master/master_watch.h"
+#include "ros/guard/master/other_commanders.h"
+#include "ros/guard/node_files.h"
+#include "ros/input/frame_transforms.h"
+#include "ros/input/given_goals.h"
+#include "ros/messages/navigate_path_action.h"
 
 namespace grid_path_planner {
 class NavigatePathConfig;

@@ -5,7 +5,7 @@
 
 #include "grid_path_planner/following/follower_options.h"
 #include "grid_path_planner/following/path_clearance_check.h"
-#include "ros/common/scheduling/realtime_priority.h"
+#include "ros/guard/scheduling/realtime_priority.h"
 
 namespace grid_path_planner::nodes {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/guard/incoming/claimed_lengths.h"
 
 namespace grid_path_planner::nodes {
 

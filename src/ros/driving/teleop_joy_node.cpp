@@ -5,9 +5,9 @@
 
 #include "grid_path_planner/TeleopJoyConfig.h"
 #include "grid_path_planner/base/options.h"
-#include "ros/common/guarded_queue.h"
-#include "ros/common/outgoing/diagnostics_timer.h"
-#include "ros/common/parameters.h"
+#include "ros/guard/guarded_queue.h"
+#include "ros/guard/outgoing/diagnostics_timer.h"
+#include "ros/guard/parameters.h"
 
 namespace grid_path_planner::nodes {
 

@@ -23,10 +23,10 @@
 #include <memory>
 #include <string>
 
-#include "ros/common/master/command_claim.h"
-#include "ros/common/master/other_commanders.h"
 #include "ros/driving/joystick_loop.h"
 #include "ros/driving/teleop_joy_options.h"
+#include "ros/guard/master/command_claim.h"
+#include "ros/guard/master/other_commanders.h"
 
 namespace grid_path_planner {
 class TeleopJoyConfig;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "grid_path_planner/following/joystick.h"
-#include "ros/common/scheduling/realtime_priority.h"
+#include "ros/guard/scheduling/realtime_priority.h"
 
 namespace grid_path_planner::nodes {
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "layers/layered_map.h"
-#include "ros/common/outgoing/map_topic.h"
+#include "ros/messages/map_topic.h"
 
 namespace grid_path_planner::nodes {
 

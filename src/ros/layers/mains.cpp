@@ -1,6 +1,6 @@
 #include "ros/layers/mains.h"
 
-#include "ros/common/run_node.h"
+#include "ros/guard/run_node.h"
 #include "ros/layers/map_layers_node.h"
 
 namespace grid_path_planner::nodes {

@@ -10,14 +10,14 @@
 #include "grid_path_planner/MapLayersConfig.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/ending/end_of_node.h"
-#include "ros/common/file_kinds.h"
-#include "ros/common/incoming/bounded_subscription.h"
-#include "ros/common/outgoing/diagnostics_timer.h"
-#include "ros/common/parameters.h"
-#include "ros/common/scheduling/guarded_timer.h"
-#include "ros/common/scheduling/log_throttle.h"
+#include "ros/guard/ending/end_of_node.h"
+#include "ros/guard/incoming/bounded_subscription.h"
+#include "ros/guard/outgoing/diagnostics_timer.h"
+#include "ros/guard/parameters.h"
+#include "ros/guard/scheduling/guarded_timer.h"
+#include "ros/guard/scheduling/log_throttle.h"
 #include "ros/layers/scan_messages.h"
+#include "ros/messages/file_kinds.h"
 
 namespace grid_path_planner::nodes {
 

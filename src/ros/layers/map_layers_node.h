@@ -29,10 +29,10 @@
 #include <vector>
 
 #include "layers/layered_map.h"
-#include "ros/common/clock.h"
-#include "ros/common/frame_transforms.h"
-#include "ros/common/map_receiver.h"
-#include "ros/common/node_files.h"
+#include "ros/guard/clock.h"
+#include "ros/guard/node_files.h"
+#include "ros/input/frame_transforms.h"
+#include "ros/input/map_receiver.h"
 #include "ros/layers/layer_source.h"
 #include "ros/layers/layered_map_publisher.h"
 #include "ros/layers/scan_queue.h"

@@ -5,7 +5,7 @@
 #include "base/seconds_since.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/clock.h"
+#include "ros/guard/clock.h"
 #include "ros/layers/scan_messages.h"
 
 namespace grid_path_planner::nodes {

@@ -14,8 +14,8 @@
 #include <optional>
 #include <string>
 
-#include "ros/common/frame_transforms.h"
-#include "ros/common/incoming/input_record.h"
+#include "ros/input/frame_transforms.h"
+#include "ros/input/input_record.h"
 
 namespace grid_path_planner::nodes {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "localization/measurement.h"
-#include "ros/common/incoming/input_record.h"
+#include "ros/input/input_record.h"
 
 namespace grid_path_planner::nodes {
 

@@ -18,7 +18,7 @@
 
 #include "grid_path_planner/base/task_queue.h"
 #include "localization/measurement.h"
-#include "ros/common/guarded_queue.h"
+#include "ros/guard/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
 

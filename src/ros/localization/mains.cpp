@@ -1,6 +1,6 @@
 #include "ros/localization/mains.h"
 
-#include "ros/common/run_node.h"
+#include "ros/guard/run_node.h"
 #include "ros/localization/marker_localizer_node.h"
 #include "ros/localization/vehicle_localizer_node.h"
 

@@ -25,10 +25,10 @@
 #include <vector>
 
 #include "grid_path_planner/base/task_queue.h"
-#include "ros/common/clock.h"
-#include "ros/common/frame_transforms.h"
-#include "ros/common/incoming/input_record.h"
-#include "ros/common/node_files.h"
+#include "ros/guard/clock.h"
+#include "ros/guard/node_files.h"
+#include "ros/input/frame_transforms.h"
+#include "ros/input/input_record.h"
 #include "ros/localization/marker_localizer_options.h"
 #include "ros/localization/marker_poses.h"
 #include "ros/localization/marker_publisher.h"

@@ -14,10 +14,10 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "localization/measurement_check.h"
-#include "ros/common/bag_reader.h"
-#include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/transform_receiver.h"
+#include "ros/guard/incoming/claimed_lengths.h"
+#include "ros/input/transform_receiver.h"
 #include "ros/localization/sensor_messages.h"
+#include "ros/messages/bag_reader.h"
 
 namespace grid_path_planner::nodes {
 

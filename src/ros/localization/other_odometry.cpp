@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "ros/common/clock.h"
+#include "ros/guard/clock.h"
 #include "ros/localization/sensor_messages.h"
 
 namespace grid_path_planner::nodes {

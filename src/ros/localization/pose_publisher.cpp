@@ -4,7 +4,7 @@
 
 #include "localization/measurement_models.h"
 #include "localization/mounted_pose.h"
-#include "ros/common/clock.h"
+#include "ros/guard/clock.h"
 
 namespace grid_path_planner::nodes {
 

@@ -7,7 +7,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/network_text.h"
+#include "ros/guard/network_text.h"
 
 namespace grid_path_planner::nodes {
 

@@ -38,9 +38,9 @@
 
 #include "grid_path_planner/SetPose.h"
 #include "localization/vehicle_localizer.h"
-#include "ros/common/clock.h"
-#include "ros/common/frame_transforms.h"
-#include "ros/common/node_files.h"
+#include "ros/guard/clock.h"
+#include "ros/guard/node_files.h"
+#include "ros/input/frame_transforms.h"
 #include "ros/localization/fix_markers.h"
 #include "ros/localization/input_log.h"
 #include "ros/localization/kept_heading.h"

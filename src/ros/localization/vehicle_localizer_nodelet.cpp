@@ -1,4 +1,4 @@
-#include "ros/common/nodelet_shell.h"
+#include "ros/guard/nodelet_shell.h"
 #include "ros/localization/vehicle_localizer_node.h"
 
 namespace grid_path_planner::nodes {

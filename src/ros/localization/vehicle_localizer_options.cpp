@@ -1,6 +1,6 @@
 #include "ros/localization/vehicle_localizer_options.h"
 
-#include "ros/common/network_text.h"
+#include "ros/guard/network_text.h"
 
 namespace grid_path_planner::nodes {
 

@@ -1,6 +1,6 @@
 #include "ros/mapping/mains.h"
 
-#include "ros/common/run_node.h"
+#include "ros/guard/run_node.h"
 #include "ros/mapping/projected_map_node.h"
 
 namespace grid_path_planner::nodes {

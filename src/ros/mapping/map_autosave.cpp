@@ -11,9 +11,9 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
-#include "ros/common/master/end_without_master.h"
-#include "ros/common/master/kept_file.h"
-#include "ros/common/scheduling/log_throttle.h"
+#include "ros/guard/master/end_without_master.h"
+#include "ros/guard/master/kept_file.h"
+#include "ros/guard/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 

@@ -26,9 +26,9 @@
 
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/mapping/map_model.h"
-#include "ros/common/guarded_queue.h"
-#include "ros/common/master/master_watch.h"
-#include "ros/common/scheduling/cpu_share.h"
+#include "ros/guard/guarded_queue.h"
+#include "ros/guard/master/master_watch.h"
+#include "ros/guard/scheduling/cpu_share.h"
 #include "ros/mapping/kept_map.h"
 
 namespace grid_path_planner::nodes {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/seconds_since.h"
-#include "ros/common/scheduling/guarded_timer.h"
+#include "ros/guard/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 

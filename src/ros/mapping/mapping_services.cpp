@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
-#include "ros/common/file_kinds.h"
-#include "ros/common/incoming/advertised_service.h"
+#include "ros/guard/incoming/advertised_service.h"
 #include "ros/mapping/floor_warning.h"
+#include "ros/messages/file_kinds.h"
 
 namespace grid_path_planner::nodes {
 

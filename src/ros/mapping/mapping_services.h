@@ -9,7 +9,7 @@
 //
 // A cloud that came before ~reset is dropped; one that came before ~clear_bbx is inserted before the box is emptied, or
 // dropped where it still waits for its transform.
-// Files lie below the folder to save in (ros/common/node_files.h).
+// Files lie below the folder to save in (ros/guard/node_files.h).
 // A request that cannot be fulfilled is refused with a sentence and changes nothing.
 #pragma once
 
@@ -20,7 +20,7 @@
 #include <functional>
 
 #include "grid_path_planner/SaveFile.h"
-#include "ros/common/node_files.h"
+#include "ros/guard/node_files.h"
 #include "ros/mapping/mapping_thread.h"
 
 #ifdef GPP_HAS_OCTOMAP_MSGS

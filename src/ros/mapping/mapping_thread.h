@@ -14,7 +14,7 @@
 
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/mapping/map_model.h"
-#include "ros/common/guarded_queue.h"
+#include "ros/guard/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
 

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "ros/common/incoming/advertised_service.h"
+#include "ros/guard/incoming/advertised_service.h"
 #include "ros/mapping/octree_topic.h"
 
 namespace grid_path_planner::nodes {

@@ -7,14 +7,14 @@
 #include "base/current_error.h"
 #include "grid_path_planner/ProjectedMapConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/ending/end_of_node.h"
-#include "ros/common/file_kinds.h"
-#include "ros/common/incoming/cloud_reader.h"
-#include "ros/common/master/end_without_master.h"
-#include "ros/common/parameters.h"
-#include "ros/common/process/memory_limit_line.h"
-#include "ros/common/scheduling/guarded_timer.h"
-#include "ros/common/scheduling/log_throttle.h"
+#include "ros/guard/ending/end_of_node.h"
+#include "ros/guard/master/end_without_master.h"
+#include "ros/guard/parameters.h"
+#include "ros/guard/process/memory_limit_line.h"
+#include "ros/guard/scheduling/guarded_timer.h"
+#include "ros/guard/scheduling/log_throttle.h"
+#include "ros/messages/cloud_reader.h"
+#include "ros/messages/file_kinds.h"
 
 namespace grid_path_planner::nodes {
 

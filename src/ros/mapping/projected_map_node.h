@@ -28,10 +28,10 @@
 #include <memory>
 #include <string>
 
-#include "ros/common/clock.h"
-#include "ros/common/frame_transforms.h"
-#include "ros/common/incoming/bounded_subscription.h"
-#include "ros/common/node_files.h"
+#include "ros/guard/clock.h"
+#include "ros/guard/incoming/bounded_subscription.h"
+#include "ros/guard/node_files.h"
+#include "ros/input/frame_transforms.h"
 #include "ros/mapping/cloud_queue.h"
 #include "ros/mapping/map_autosave.h"
 #include "ros/mapping/mapping_diagnostics.h"

@@ -23,7 +23,7 @@
 #include <string>
 
 #include "grid_path_planner/mapping/map_model.h"
-#include "ros/common/outgoing/map_topic.h"
+#include "ros/messages/map_topic.h"
 
 namespace grid_path_planner::nodes {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "ros/common/clock.h"
+#include "ros/guard/clock.h"
 
 namespace grid_path_planner::nodes {
 

@@ -1,6 +1,6 @@
 #include "ros/planning/mains.h"
 
-#include "ros/common/run_node.h"
+#include "ros/guard/run_node.h"
 #include "ros/planning/map_publisher_node.h"
 #include "ros/planning/path_planner_node.h"
 

@@ -5,13 +5,13 @@
 #include "grid_path_planner/MapPublisherConfig.h"
 #include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/ending/end_of_node.h"
-#include "ros/common/file_kinds.h"
-#include "ros/common/incoming/advertised_service.h"
-#include "ros/common/network_text.h"
-#include "ros/common/parameters.h"
-#include "ros/common/scheduling/guarded_timer.h"
-#include "ros/common/scheduling/log_throttle.h"
+#include "ros/guard/ending/end_of_node.h"
+#include "ros/guard/incoming/advertised_service.h"
+#include "ros/guard/network_text.h"
+#include "ros/guard/parameters.h"
+#include "ros/guard/scheduling/guarded_timer.h"
+#include "ros/guard/scheduling/log_throttle.h"
+#include "ros/messages/file_kinds.h"
 
 namespace grid_path_planner::nodes {
 

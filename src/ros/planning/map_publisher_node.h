@@ -19,7 +19,7 @@
 #include <string>
 
 #include "grid_path_planner/grid/occupancy.h"
-#include "ros/common/node_files.h"
+#include "ros/guard/node_files.h"
 #include "ros/planning/map_publisher_options.h"
 
 namespace grid_path_planner {

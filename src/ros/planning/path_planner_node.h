@@ -15,8 +15,8 @@
 #include <atomic>
 #include <memory>
 
-#include "ros/common/master/command_claim.h"
-#include "ros/common/scheduling/ros_period.h"
+#include "ros/guard/master/command_claim.h"
+#include "ros/guard/scheduling/ros_period.h"
 #include "ros/planning/active_goal.h"
 #include "ros/planning/plan_action.h"
 #include "ros/planning/plan_diagnostics.h"

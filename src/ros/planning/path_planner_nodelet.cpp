@@ -1,4 +1,4 @@
-#include "ros/common/nodelet_shell.h"
+#include "ros/guard/nodelet_shell.h"
 #include "ros/planning/path_planner_node.h"
 
 namespace grid_path_planner::nodes {

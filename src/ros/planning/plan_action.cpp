@@ -5,8 +5,8 @@
 #include "base/current_error.h"
 #include "base/seconds_since.h"
 #include "grid_path_planner/ros/conversions.h"
-#include "ros/common/action/action_topics.h"
-#include "ros/common/guarded_queue.h"
+#include "ros/guard/action/action_topics.h"
+#include "ros/guard/guarded_queue.h"
 #include "ros/planning/requests/request_messages.h"
 
 namespace actionlib {

@@ -1,5 +1,5 @@
 #include "ros/planning/plan_diagnostics.h"
-#include "ros/common/scheduling/guarded_timer.h"
+#include "ros/guard/scheduling/guarded_timer.h"
 
 #include <optional>
 #include <string>

@@ -7,8 +7,8 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/ros/conversions.h"
-#include "ros/common/file_kinds.h"
-#include "ros/common/incoming/advertised_service.h"
+#include "ros/guard/incoming/advertised_service.h"
+#include "ros/messages/file_kinds.h"
 #include "ros/planning/requests/request_messages.h"
 
 namespace grid_path_planner::nodes {

@@ -17,8 +17,8 @@
 #include "grid_path_planner/ComparePlans.h"
 #include "grid_path_planner/ExplainPlan.h"
 #include "grid_path_planner/SaveWaypoints.h"
-#include "ros/common/guarded_queue.h"
-#include "ros/common/incoming/service_caller.h"
+#include "ros/guard/guarded_queue.h"
+#include "ros/guard/incoming/service_caller.h"
 #include "ros/planning/planning_server.h"
 
 namespace grid_path_planner::nodes {

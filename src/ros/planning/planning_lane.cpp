@@ -11,8 +11,8 @@
 #include "grid_path_planner/planning/replan_policy.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "planning/map_store.h"
-#include "ros/common/clock.h"
-#include "ros/common/guarded_queue.h"
+#include "ros/guard/clock.h"
+#include "ros/guard/guarded_queue.h"
 #include "ros/planning/plan_publisher.h"
 #include "ros/planning/requests/request_poses.h"
 

@@ -23,7 +23,7 @@ struct PlanningRequest {
 };
 
 // Throws InputError for names of planners, heuristics and frames that are no names
-// (ros/common/network_text.h).
+// (ros/guard/network_text.h).
 void checkText(const PlanningRequest& request);
 
 // The request as an answer may repeat it: such names are empty.

@@ -11,7 +11,7 @@
 #include "grid_path_planner/path/waypoint_file.h"
 #include "path/footprint/footprint.h"
 #include "planning/map_store.h"
-#include "ros/common/file_kinds.h"
+#include "ros/messages/file_kinds.h"
 #include "ros/planning/requests/request_poses.h"
 
 namespace grid_path_planner::nodes {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "grid_path_planner/planners/decomposition.h"
-#include "ros/common/outgoing/latched_message.h"
+#include "ros/guard/outgoing/latched_message.h"
 #include "ros/planning/rectangle_markers.h"
 
 namespace grid_path_planner::nodes {

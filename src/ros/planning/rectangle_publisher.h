@@ -17,7 +17,7 @@
 
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "ros/common/guarded_queue.h"
+#include "ros/guard/guarded_queue.h"
 #include "ros/planning/rectangle_messages.h"
 
 namespace grid_path_planner::nodes {

@@ -20,7 +20,7 @@
 #include <functional>
 #include <string>
 
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/guard/incoming/claimed_lengths.h"
 
 namespace grid_path_planner::nodes {
 

@@ -6,7 +6,7 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "panel/planner_colours.h"
 #include "panel/shown_text.h"
-#include "ros/common/outgoing/wrapped_text.h"
+#include "ros/messages/wrapped_text.h"
 
 namespace grid_path_planner::nodes {
 

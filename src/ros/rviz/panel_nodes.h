@@ -10,7 +10,7 @@
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/PlanPathAction.h"
 #include "grid_path_planner/PlanStatistics.h"
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/guard/incoming/claimed_lengths.h"
 #include "ros/rviz/action_link.h"
 
 namespace grid_path_planner::nodes {

@@ -5,8 +5,8 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/conversions.h"
-#include "ros/common/incoming/claimed_lengths.h"
-#include "ros/common/master/xmlrpc_call.h"
+#include "ros/guard/incoming/claimed_lengths.h"
+#include "ros/guard/master/xmlrpc_call.h"
 
 namespace grid_path_planner::nodes {
 

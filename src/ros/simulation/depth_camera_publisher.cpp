@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "grid_path_planner/base/options.h"
-#include "ros/common/guarded_queue.h"
+#include "ros/guard/guarded_queue.h"
 #include "ros/simulation/camera_info.h"
 #include "ros/simulation/transform_message.h"
 #include "simulation/camera/pinhole.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "ros/common/guarded_queue.h"
+#include "ros/guard/guarded_queue.h"
 #include "ros/simulation/camera_info.h"
 
 namespace grid_path_planner::nodes {

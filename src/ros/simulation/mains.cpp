@@ -1,6 +1,6 @@
 #include "ros/simulation/mains.h"
 
-#include "ros/common/run_node.h"
+#include "ros/guard/run_node.h"
 #include "ros/simulation/simulator_node.h"
 
 namespace grid_path_planner::nodes {

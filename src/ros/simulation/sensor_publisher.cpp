@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "ros/common/outgoing/topic_changes.h"
+#include "ros/guard/outgoing/topic_changes.h"
 
 namespace grid_path_planner::nodes {
 

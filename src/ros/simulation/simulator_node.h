@@ -39,7 +39,7 @@
 
 #include "grid_path_planner/simulation/dead_reckoning.h"
 #include "grid_path_planner/simulation/vehicle.h"
-#include "ros/common/node_files.h"
+#include "ros/guard/node_files.h"
 #include "ros/simulation/contact_publisher.h"
 #include "ros/simulation/depth_camera_publisher.h"
 #include "ros/simulation/image_camera_publisher.h"

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "ros/common/network_text.h"
+#include "ros/guard/network_text.h"
 
 namespace grid_path_planner::nodes {
 

@@ -1,5 +1,5 @@
 // Every message that a node of ours subscribes to, as roscpp hands over its bytes: judged, unpacked, given on.
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/guard/incoming/claimed_lengths.h"
 
 #include <actionlib_msgs/GoalID.h>
 #include <actionlib_msgs/GoalStatusArray.h>

@@ -7,7 +7,7 @@
 #include "fuzz/fuzz_target.h"
 #include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/mapping/map_model.h"
-#include "ros/common/incoming/cloud_reader.h"
+#include "ros/messages/cloud_reader.h"
 
 namespace grid_path_planner::fuzz {
 namespace {

@@ -9,8 +9,8 @@
 #include "fuzz/fuzz_target.h"
 #include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/incoming/given_goals.h"
-#include "ros/common/velocity_message.h"
+#include "ros/input/given_goals.h"
+#include "ros/messages/velocity_message.h"
 
 namespace grid_path_planner::fuzz {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "fuzz/fuzz_target.h"
-#include "ros/common/file_kinds.h"
-#include "ros/common/node_files.h"
+#include "ros/guard/node_files.h"
+#include "ros/messages/file_kinds.h"
 #include "support/temporary_folder.h"
 
 namespace grid_path_planner::fuzz {

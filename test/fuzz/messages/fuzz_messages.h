@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/guard/incoming/claimed_lengths.h"
 
 namespace grid_path_planner::fuzz {
 

@@ -7,9 +7,9 @@
 #include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/NavigatePathResult.h"
 #include "grid_path_planner/ros/conversions.h"
-#include "ros/common/action/action_stamps.h"
-#include "ros/common/action/seen_goals.h"
 #include "ros/driving/go_to_messages.h"
+#include "ros/guard/action/action_stamps.h"
+#include "ros/guard/action/seen_goals.h"
 
 namespace grid_path_planner::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 #include "fuzz/messages/fuzz_messages.h"
 #include "grid/map_differences.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/map_receiver.h"
+#include "ros/input/map_receiver.h"
 
 namespace grid_path_planner::fuzz {
 namespace {

@@ -1,4 +1,4 @@
-#include "ros/common/network_text.h"
+#include "ros/guard/network_text.h"
 
 #include <algorithm>
 

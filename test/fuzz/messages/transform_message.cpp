@@ -3,7 +3,7 @@
 
 #include "fuzz/fuzz_target.h"
 #include "fuzz/messages/fuzz_messages.h"
-#include "ros/common/transform_receiver.h"
+#include "ros/input/transform_receiver.h"
 
 namespace grid_path_planner::fuzz {
 namespace {

@@ -2,9 +2,9 @@
 #include <xmlrpcpp/XmlRpcException.h>
 
 #include "fuzz/fuzz_target.h"
-#include "ros/common/master/system_state.h"
-#include "ros/common/master/xmlrpc_call.h"
-#include "ros/common/parameters.h"
+#include "ros/guard/master/system_state.h"
+#include "ros/guard/master/xmlrpc_call.h"
+#include "ros/guard/parameters.h"
 
 namespace grid_path_planner::fuzz {
 namespace {

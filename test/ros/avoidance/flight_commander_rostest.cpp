@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "ros/common/velocity_message.h"
+#include "ros/messages/velocity_message.h"
 #include "ros/support/flight_fixture.h"
 
 namespace grid_path_planner::nodes {

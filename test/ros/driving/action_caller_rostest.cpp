@@ -1,5 +1,5 @@
 // A cancel that its server never had: the client was told that the goal was cancelled, and the vehicle drove on to its end.
-#include "ros/common/action/action_caller.h"
+#include "ros/guard/action/action_caller.h"
 
 #include <actionlib_msgs/GoalStatusArray.h>
 #include <gtest/gtest.h>

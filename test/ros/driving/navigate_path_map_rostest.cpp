@@ -15,8 +15,8 @@
 #include <thread>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/guarded_queue.h"
 #include "ros/driving/map_watch.h"
+#include "ros/guard/guarded_queue.h"
 #include "ros/support/still_fixture.h"
 #include "support/ascii_map.h"
 #include "support/temporary_folder.h"

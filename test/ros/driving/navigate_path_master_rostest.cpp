@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "grid_path_planner/path/waypoint_file.h"
-#include "ros/common/master/xmlrpc_call.h"
+#include "ros/guard/master/xmlrpc_call.h"
 #include "ros/support/links.h"
 #include "ros/support/own_master.h"
 #include "ros/support/still_fixture.h"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/master/xmlrpc_call.h"
+#include "ros/guard/master/xmlrpc_call.h"
 #include "ros/support/nodelet_command.h"
 #include "ros/support/raw_subscriber.h"
 #include "ros/support/still_fixture.h"

@@ -13,8 +13,8 @@
 #include <string>
 #include <thread>
 
-#include "ros/common/guarded_queue.h"
-#include "ros/common/incoming/advertised_service.h"
+#include "ros/guard/guarded_queue.h"
+#include "ros/guard/incoming/advertised_service.h"
 #include "ros/support/process.h"
 
 namespace grid_path_planner::nodes {

@@ -1,7 +1,7 @@
 // A nodelet manager ended by SIGABRT, in two of some 60 runs of unload.test: it destroyed navigate_path in the thread
 // of its callbacks while it unloaded path_planner in another, roscpp took a topic of the simulator out of its list, and
 // the simulator published the next message there.
-#include "ros/common/outgoing/topic_changes.h"
+#include "ros/guard/outgoing/topic_changes.h"
 
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "ros/common/nodelet_shell.h"
+#include "ros/guard/nodelet_shell.h"
 #include "ros/support/wait.h"
 
 namespace grid_path_planner::nodes {

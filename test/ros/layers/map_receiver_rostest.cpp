@@ -1,5 +1,5 @@
 // Whole maps and updates, which have connections of their own and come in any order.
-#include "ros/common/map_receiver.h"
+#include "ros/input/map_receiver.h"
 
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/guarded_queue.h"
-#include "ros/common/outgoing/map_announcement.h"
-#include "ros/common/outgoing/map_topic.h"
+#include "ros/guard/guarded_queue.h"
+#include "ros/messages/map_announcement.h"
+#include "ros/messages/map_topic.h"
 #include "ros/support/latest.h"
 #include "ros/support/wait.h"
 #include "support/ascii_map.h"

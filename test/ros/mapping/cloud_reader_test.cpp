@@ -1,4 +1,4 @@
-#include "ros/common/incoming/cloud_reader.h"
+#include "ros/messages/cloud_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 
 #include "grid_path_planner/SaveFile.h"
 #include "grid_path_planner/grid/map_file.h"
-#include "ros/common/node_files.h"
+#include "ros/guard/node_files.h"
 #include "ros/support/latest.h"
 #include "ros/support/process.h"
 #include "support/temporary_folder.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "ros/common/outgoing/map_topic.h"
+#include "ros/messages/map_topic.h"
 #include "ros/support/map_listeners.h"
 #include "ros/support/planner_fixture.h"
 

@@ -6,7 +6,7 @@
 
 #include "grid_path_planner/ComparePlans.h"
 #include "grid_path_planner/PlanRecord.h"
-#include "ros/common/master/xmlrpc_call.h"
+#include "ros/guard/master/xmlrpc_call.h"
 #include "ros/support/links.h"
 #include "ros/support/planner_fixture.h"
 #include "support/temporary_folder.h"

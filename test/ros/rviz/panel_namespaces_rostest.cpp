@@ -12,7 +12,7 @@
 
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/PlanPathAction.h"
-#include "ros/common/master/xmlrpc_call.h"
+#include "ros/guard/master/xmlrpc_call.h"
 #include "ros/rviz/action_topics.h"
 #include "ros/rviz/panel_window.h"
 

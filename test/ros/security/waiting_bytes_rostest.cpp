@@ -8,8 +8,8 @@
 #include <atomic>
 #include <future>
 
-#include "ros/common/action/navigate_path_action.h"
-#include "ros/common/transform_receiver.h"
+#include "ros/input/transform_receiver.h"
+#include "ros/messages/navigate_path_action.h"
 #include "ros/support/wait.h"
 
 namespace grid_path_planner::nodes {

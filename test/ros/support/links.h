@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "ros/common/master/xmlrpc_call.h"
+#include "ros/guard/master/xmlrpc_call.h"
 
 namespace grid_path_planner::test {
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/common/master/xmlrpc_call.h"
+#include "ros/guard/master/xmlrpc_call.h"
 #include "ros/support/process.h"
 #include "ros/support/wait.h"
 

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "ros/common/parameters.h"
+#include "ros/guard/parameters.h"
 
 namespace grid_path_planner::test {
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/common/master/xmlrpc_call.h"
+#include "ros/guard/master/xmlrpc_call.h"
 #include "ros/support/wait.h"
 
 namespace grid_path_planner::test {

@@ -10,7 +10,7 @@
 namespace grid_path_planner::test {
 
 // The command with stdout and stderr in a socket that is open and never read: once it is full, who logs waits, as
-// nothing can be done about it (ros/common/outgoing/unread_log.h does for pipes).
+// nothing can be done about it (ros/guard/outgoing/unread_log.h does for pipes).
 inline std::vector<std::string> withUnreadSocket(const std::vector<std::string>& command) {
   std::vector<std::string> all{"python3", "-c",
                                "import os, socket, sys\n"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "localization/input_statistics.h"
-#include "ros/common/incoming/input_record.h"
+#include "ros/input/input_record.h"
 #include "ros/localization/vehicle_localizer_options.h"
 
 namespace grid_path_planner::nodes {

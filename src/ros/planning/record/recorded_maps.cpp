@@ -4,7 +4,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/common/map_receiver.h"
+#include "ros/input/map_receiver.h"
 
 namespace grid_path_planner::nodes {
 

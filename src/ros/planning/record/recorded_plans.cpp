@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
-#include "ros/common/bag_reader.h"
-#include "ros/common/incoming/claimed_lengths.h"
+#include "ros/guard/incoming/claimed_lengths.h"
+#include "ros/messages/bag_reader.h"
 #include "ros/planning/record/recorded_maps.h"
 
 namespace grid_path_planner::nodes {

@@ -23,7 +23,7 @@
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/costmap/cost_grid.h"
 #include "planners/tables/cost_to_go.h"
-#include "ros/common/guarded_queue.h"
+#include "ros/guard/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
 

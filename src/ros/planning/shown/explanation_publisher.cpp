@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "ros/common/outgoing/wrapped_text.h"
+#include "ros/messages/wrapped_text.h"
 
 namespace grid_path_planner::nodes {
 

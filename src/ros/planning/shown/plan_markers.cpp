@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "grid_path_planner/ros/conversions.h"
-#include "ros/common/outgoing/wrapped_text.h"
+#include "ros/messages/wrapped_text.h"
 
 namespace grid_path_planner::nodes {
 

@@ -1,5 +1,5 @@
 // planning_map, the map as it is searched, and planning_map_updates, what changes in it: made only
-// where someone listens (ros/common/outgoing/map_topic.h).
+// where someone listens (ros/messages/map_topic.h).
 #pragma once
 
 #include <nav_msgs/OccupancyGrid.h>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "grid_path_planner/costmap/cost_grid.h"
-#include "ros/common/outgoing/map_topic.h"
+#include "ros/messages/map_topic.h"
 
 namespace grid_path_planner::nodes {
 

@@ -1,0 +1,39 @@
+#include "ros/guard/ending/end_of_node.h"
+
+#include <ros/init.h>
+
+#include <chrono>
+#include <utility>
+
+#include "ros/guard/run_node.h"
+
+namespace grid_path_planner::nodes {
+
+namespace {
+
+// Without memory for the reason there is one.
+bool isToEnd() noexcept {
+  try {
+    return nodeIsToEnd() || ros::isShuttingDown();
+  } catch (...) {
+    return true;
+  }
+}
+
+}  // namespace
+
+EndOfNode::EndOfNode(base::StopSource stop) : stop_(std::move(stop)) {
+  watch_ = std::thread([this] {
+    while (!over_) {
+      if (isToEnd()) stop_.cancel();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  });
+}
+
+EndOfNode::~EndOfNode() {
+  over_ = true;
+  watch_.join();
+}
+
+}  // namespace grid_path_planner::nodes

@@ -1,0 +1,95 @@
+#include "ros/guard/master/end_without_master.h"
+
+#include <pthread.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <utility>
+
+#include "ros/guard/master/xmlrpc_call.h"
+
+namespace grid_path_planner::nodes {
+namespace {
+
+constexpr double kPeriod = 0.1;            // s
+constexpr double kPatience = 1.5;          // s, after which the master is asked
+constexpr double kPatienceOfMaster = 0.2;  // s
+constexpr int kInterruptedEach = 20;       // periods: most answers come within that time
+
+// Of no use to anybody else here, and nothing happens where nobody handles it.
+constexpr int kInterruption = SIGURG;
+
+std::atomic<int> unfinished{0};
+
+// So that poll() returns with EINTR.
+void handleInterruption() {
+  struct sigaction action = {};
+  action.sa_handler = [](int) {};
+  ::sigaction(kInterruption, &action, nullptr);
+}
+
+bool masterAnswers() noexcept {
+  try {
+    return answersXmlRpc(masterUri(), kPatienceOfMaster);
+  } catch (...) {
+    return true;
+  }
+}
+
+}  // namespace
+
+EndWithoutMaster::EndWithoutMaster(std::string name, std::function<std::string()> asked)
+    : name_(std::move(name)),
+      asked_(std::move(asked)),
+      main_thread_(::pthread_self()),
+      thread_([this] { run(); }) {}
+
+EndWithoutMaster::~EndWithoutMaster() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_over_ = true;
+  }
+  over_.notify_all();
+  thread_.join();
+}
+
+bool EndWithoutMaster::isOverWithin(double seconds) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  return over_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return is_over_; });
+}
+
+// Without memory for the reason there is one, and without memory to ask the master it is not to blame.
+bool EndWithoutMaster::isAsked() const noexcept {
+  try {
+    return !asked_().empty();
+  } catch (...) {
+    return true;
+  }
+}
+
+void EndWithoutMaster::run() {
+  while (!isAsked())
+    if (isOverWithin(kPeriod)) return;
+  if (isOverWithin(kPatience)) return;
+  handleInterruption();
+  for (int i = 0; unfinished > 0 || masterAnswers(); ++i) {
+    if (unfinished == 0 && i % kInterruptedEach == 0) ::pthread_kill(main_thread_, kInterruption);
+    if (isOverWithin(kPeriod)) return;
+  }
+  std::cerr << name_ << " ends without giving its names back: the master at " << masterUri()
+            << " does not answer\n";
+  ::_exit(0);
+}
+
+LastWork::LastWork() {
+  ++unfinished;
+}
+
+LastWork::~LastWork() {
+  --unfinished;
+}
+
+}  // namespace grid_path_planner::nodes

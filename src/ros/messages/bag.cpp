@@ -1,0 +1,93 @@
+#include "grid_path_planner/ros/bag.h"
+
+#include <nav_msgs/OccupancyGrid.h>
+
+#include <set>
+
+#include "grid_path_planner/base/files.h"
+#include "grid_path_planner/grid/map_file.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/guard/incoming/claimed_lengths.h"
+#include "ros/messages/bag_reader.h"
+
+namespace grid_path_planner::nodes {
+
+using base::extensionOf;
+using base::InputError;
+using grid::GridGeometry;
+using grid::MapFileOptions;
+using grid::mapGeometry;
+using grid::OccupancyGrid;
+using grid::readMapFile;
+
+namespace {
+
+// The bytes of the message, the message, and the map made of it.
+constexpr std::size_t kCopiesOfMap = 3;
+constexpr std::string_view kBeginningOfBags = "#ROSBAG";
+
+// The first bytes of a file; fewer where it is shorter.
+std::string beginningOf(const std::string& file, std::size_t count) {
+  return base::RegularFile(file).read(0, count);
+}
+
+bool isMap(const BagConnection& connection) {
+  return connection.type == ros::message_traits::datatype<nav_msgs::OccupancyGrid>() &&
+         connection.md5_sum == ros::message_traits::md5sum<nav_msgs::OccupancyGrid>();
+}
+
+std::string listOf(const std::set<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+std::string withoutSlash(const std::string& topic) {
+  return !topic.empty() && topic.front() == '/' ? topic.substr(1) : topic;
+}
+
+// The connections that carry maps on `topic`, with and without a leading slash.
+std::set<std::uint32_t> mapConnections(const BagReader& bag, const std::string& file,
+                                       const std::string& topic) {
+  std::set<std::uint32_t> ids;
+  std::set<std::string> maps;
+  for (const BagConnection& connection : bag.connections()) {
+    if (!isMap(connection)) continue;
+    maps.insert(connection.topic);
+    if (withoutSlash(connection.topic) == withoutSlash(topic)) ids.insert(connection.id);
+  }
+  if (!ids.empty()) return ids;
+  throw InputError(file,
+                   "has no nav_msgs/OccupancyGrid on '" + topic + "'" +
+                       (maps.empty() ? " nor on any other topic" : ", but on " + listOf(maps)));
+}
+
+}  // namespace
+
+OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic,
+                             const base::ReadLimits& limits) {
+  return base::readWithin(file, limits, [&](base::ReadLimits& within) {
+    const BagReader bag(file, within);
+    auto bytes = bag.firstMessage(mapConnections(bag, file, topic));
+    if (!bytes) throw InputError(file, "has no message on '" + topic + "'");
+    within.take(file, kCopiesOfMap * bytes->size());
+    try {
+      return occupancyFromMessage(messageFromBytes<nav_msgs::OccupancyGrid>(*bytes));
+    } catch (const InputError& error) {
+      throw InputError(file, "the first map on '" + topic + "': " + error.what());
+    }
+  });
+}
+
+OccupancyGrid readAnyMapFile(const std::string& file, const MapFileOptions& options) {
+  const bool is_bag =
+      extensionOf(file) == "bag" || beginningOf(file, kBeginningOfBags.size()) == kBeginningOfBags;
+  if (!is_bag) return readMapFile(file, options);
+  OccupancyGrid map = readMapFromBag(file, "projected_map", options.limits);
+  const GridGeometry& own = map.geometry();
+  const GridGeometry geometry =
+      mapGeometry(file, own.width(), own.height(), own.resolution(), own.origin(), options);
+  return OccupancyGrid(geometry, std::move(map.values()));
+}
+
+}  // namespace grid_path_planner::nodes
