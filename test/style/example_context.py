@@ -156,7 +156,7 @@ CONTEXT = {
     "input_record.h": "extern std::exception error;",
     "speed_limit_receiver.h": """struct Loop { void setSpeedLimits(const SpeedLimits&); };
         extern ros::NodeHandle nh; extern Loop loop;""",
-    "scan_messages.h": """#include "ros/input/frame_transforms.h"
+    "scan_messages.h": """#include "ros/input/frame_lookup.h"
         extern sensor_msgs::LaserScan::ConstPtr message; extern FrameTransforms transforms; extern std::string frame;
         extern ros::Time stamp; extern bool inf_clears;""",
     "scan_queue.h": """extern ScanQueue queue; extern sensor_msgs::LaserScan::ConstPtr message; extern double timeout;
@@ -251,7 +251,7 @@ CONTEXT = {
                        "extern BackwardNodes::Index start; extern SearchKey consistent_below;"
                        "extern SearchResult result; extern StopPoll poll; extern std::uint64_t most;",
     "file_folder.h": '#include "ros/messages/file_kinds.h"\nextern std::string text;',
-    "frame_transforms.h": "extern ros::NodeHandle nh; extern double limit;",
+    "frame_lookup.h": "extern ros::NodeHandle nh; extern double limit;",
     "backward_nodes.h": "extern const BackwardNodes& nodes; extern BackwardNodes::Index index;",
     "backward_search_tree.h": "extern const CostGrid &map, &old_map, &new_map; extern const MovePruning& moves;"
                    "extern Cell goal, start, moved_start; extern double extra; extern SearchResult result; extern CellRect changed;",

@@ -19,7 +19,7 @@
 
 #include "grid_path_planner/avoidance/frame.h"
 #include "grid_path_planner/avoidance/pilot_options.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 
 namespace grid_path_planner::nodes {
 

@@ -68,7 +68,7 @@
 #include "ros/guard/master/command_claim.h"
 #include "ros/guard/master/other_commanders.h"
 #include "ros/guard/node_files.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/input/given_goals.h"
 
 namespace grid_path_planner {

@@ -38,7 +38,7 @@
 #include "ros/guard/master/master_watch.h"
 #include "ros/guard/outgoing/direct_publisher.h"
 #include "ros/guard/scheduling/control_thread.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/input/manual_control.h"
 
 namespace grid_path_planner::nodes {

@@ -45,7 +45,7 @@
 #include "ros/guard/clock.h"
 #include "ros/guard/guarded_queue.h"
 #include "ros/guard/master/command_claim.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/input/manual_control.h"
 
 namespace grid_path_planner {

@@ -51,7 +51,7 @@
 #include "ros/guard/master/master_watch.h"
 #include "ros/guard/master/other_commanders.h"
 #include "ros/guard/node_files.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/input/given_goals.h"
 #include "ros/messages/navigate_path_action.h"
 

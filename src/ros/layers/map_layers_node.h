@@ -31,7 +31,7 @@
 #include "layers/layered_map.h"
 #include "ros/guard/clock.h"
 #include "ros/guard/node_files.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/input/map_receiver.h"
 #include "ros/layers/layer_source.h"
 #include "ros/layers/layered_map_publisher.h"

@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/input/input_record.h"
 
 namespace grid_path_planner::nodes {

@@ -27,7 +27,7 @@
 #include "grid_path_planner/base/task_queue.h"
 #include "ros/guard/clock.h"
 #include "ros/guard/node_files.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/input/input_record.h"
 #include "ros/localization/marker_localizer_options.h"
 #include "ros/localization/marker_poses.h"

@@ -17,7 +17,7 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "localization/mounted_pose.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/localization/marker_localizer_options.h"
 #include "vision/marker_pose.h"
 #include "vision/panel_learning.h"

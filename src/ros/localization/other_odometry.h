@@ -10,7 +10,7 @@
 #include <string>
 
 #include "localization/vehicle_localizer.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 
 namespace grid_path_planner::nodes {
 

@@ -40,7 +40,7 @@
 #include "localization/vehicle_localizer.h"
 #include "ros/guard/clock.h"
 #include "ros/guard/node_files.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/localization/fix_markers.h"
 #include "ros/localization/input_log.h"
 #include "ros/localization/kept_heading.h"

@@ -25,7 +25,7 @@
 #include <string>
 
 #include "grid_path_planner/mapping/cloud_filter.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 
 namespace grid_path_planner::nodes {
 

@@ -31,7 +31,7 @@
 #include "ros/guard/clock.h"
 #include "ros/guard/incoming/bounded_subscription.h"
 #include "ros/guard/node_files.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/mapping/cloud_queue.h"
 #include "ros/mapping/map_autosave.h"
 #include "ros/mapping/mapping_diagnostics.h"

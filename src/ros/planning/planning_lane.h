@@ -27,7 +27,7 @@
 #include "path/clearance_meter.h"
 #include "planning/explanation.h"
 #include "planning/via/via_plan.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/input/map_receiver.h"
 #include "ros/planning/planning_request.h"
 #include "ros/planning/record/plan_record.h"

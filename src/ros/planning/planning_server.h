@@ -25,7 +25,7 @@
 #include "grid_path_planner/planning/path_planner.h"
 #include "ros/guard/clock.h"
 #include "ros/guard/node_files.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/input/map_receiver.h"
 #include "ros/planning/plan_publisher.h"
 #include "ros/planning/planning_lane.h"

@@ -4,7 +4,7 @@
 
 #include "fuzz/fuzz_target.h"
 #include "fuzz/messages/fuzz_messages.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/localization/transform_rivals.h"
 
 namespace grid_path_planner::fuzz {

@@ -8,7 +8,7 @@
 #include "grid_path_planner/SetPose.h"
 #include "localization/measurement_check.h"
 #include "localization/vehicle_localizer.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 
 namespace grid_path_planner::fuzz {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 
 namespace grid_path_planner::nodes {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 
 namespace grid_path_planner::nodes {
 

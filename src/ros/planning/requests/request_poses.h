@@ -8,7 +8,7 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "planning/via/via_plan.h"
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/planning/planning_request.h"
 
 namespace grid_path_planner::nodes {

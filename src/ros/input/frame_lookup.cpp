@@ -1,4 +1,4 @@
-#include "ros/input/frame_transforms.h"
+#include "ros/input/frame_lookup.h"
 
 #include <ros/console.h>
 #include <tf2_geometry_msgs/tf2_geometry_msgs.h>
