@@ -58,11 +58,14 @@ namespace {
 
 class GuardedCallback : public ros::CallbackInterface {
  public:
-  GuardedCallback(ros::CallbackInterfacePtr callback, std::shared_ptr<CallbackOwner> owner)
-      : callback_(std::move(callback)), owner_(std::move(owner)) {}
+  GuardedCallback(ros::CallbackInterfacePtr callback, std::shared_ptr<CallbackOwner> owner,
+                  std::shared_ptr<NodeTime> time)
+      : callback_(std::move(callback)), owner_(std::move(owner)), time_(std::move(time)) {}
 
+  // Not under the owner's lock: a listener may remove an owner.
   CallResult call() override {
     try {
+      time_->tellJumps();
       return owner_->call(*callback_);
     } catch (...) {
       tellGivenUp("A callback");
@@ -74,6 +77,7 @@ class GuardedCallback : public ros::CallbackInterface {
  private:
   const ros::CallbackInterfacePtr callback_;
   const std::shared_ptr<CallbackOwner> owner_;
+  const std::shared_ptr<NodeTime> time_;
 };
 
 class Work : public ros::CallbackInterface {
@@ -96,7 +100,7 @@ void GuardedQueue::addCallback(const ros::CallbackInterfacePtr& callback, std::u
     const std::lock_guard<std::mutex> lock(mutex_);
     std::shared_ptr<CallbackOwner>& known = owners_[owner];
     if (!known) known = std::make_shared<CallbackOwner>();
-    guarded = boost::make_shared<GuardedCallback>(callback, known);
+    guarded = boost::make_shared<GuardedCallback>(callback, known, time_);
     if (holds_) {
       held_.emplace_back(guarded, owner);
       return;

@@ -5,11 +5,12 @@
 //
 // Guaranteed: an exception ends its callback, never the thread that serves the queue, also where there is no memory to
 // tell it; the log says which, at most once a second. roscpp by itself lets it end the process, a nodelet manager with all
-// that it holds. Between hold() and release() nothing is called: a node's constructor is not met by its
-// own callbacks in another thread. Once removeByID() has returned no callback of that owner runs or begins, unless it was
-// called by one: roscpp's queue may still begin one that another thread had just taken out of it. Where a callback has
-// removed its own owner, a second call does not wait for it. The queue behind
-// does the work and outlives this; callbacks that wait in it may outlive this too. Thread-safe.
+// that it holds. Where ROS time went back, the listeners of time() have returned before a callback begins. Between hold()
+// and release() nothing is called: a node's constructor is not met by its own callbacks in another thread. Once
+// removeByID() has returned no callback of that owner runs or begins, unless it was called by one: roscpp's queue may
+// still begin one that another thread had just taken out of it. Where a callback has removed its own owner, a second call
+// does not wait for it. The queue behind does the work and outlives this; callbacks that wait in it may outlive this too.
+// Thread-safe.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -23,6 +24,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "ros/guard/node_time.h"
 
 namespace grid_path_planner::nodes {
 
@@ -39,8 +42,11 @@ class GuardedQueue : public ros::CallbackQueueInterface {
   // What came since hold() is called, in its order.
   void release();
 
+  NodeTime& time() { return *time_; }
+
  private:
   ros::CallbackQueueInterface& queue_;
+  const std::shared_ptr<NodeTime> time_ = std::make_shared<NodeTime>();
   std::mutex mutex_;
   bool holds_ = false;
   std::vector<std::pair<ros::CallbackInterfacePtr, std::uint64_t>> held_;  // with their owners

@@ -107,6 +107,7 @@ bool ControlThread::askAtLast(const std::function<void()>& work) noexcept {
 // An owner that can say why it failed catches that itself.
 void ControlThread::tick() {
   try {
+    time().tellJumps();
     tick_();
   } catch (...) {
     return;

@@ -5,7 +5,8 @@
 //   thread.start(50.0, 1);                        // Hz, real-time priority
 //   thread.ask([&] { thread.setRate(20.0); });    // in the thread, and waited for
 //
-// What the tick uses belongs to this thread alone: others hand it work. Guaranteed: work that comes is done at
+// What the tick uses belongs to this thread alone: others hand it work, and what is done where ROS time goes back is a
+// listener of time(), told before the next work or tick. Guaranteed: work that comes is done at
 // once, in its order; ticks that were missed are not made up for; it takes half of a processor at most, however
 // long ticks and work are, since before a real-time thread no other comes. Not guaranteed: that the machine gives
 // it a processor in time, which takes a real-time priority.
@@ -42,6 +43,8 @@ class ControlThread {
 
   // Outlives the subscriptions that it serves.
   ros::CallbackQueueInterface& queue() { return guarded_; }
+
+  NodeTime& time() { return guarded_.time(); }
 
   // Hands `work` over.
   void post(std::function<void()> work);
