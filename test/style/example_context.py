@@ -154,6 +154,13 @@ CONTEXT = {
                           "extern const tf2_msgs::TFMessage& message; extern std::string node; extern bool is_static;",
     "input_log.h": "extern std::exception error; using localization::Source;",
     "input_record.h": "extern std::exception error;",
+    "input_rules.h": "struct Options { std::string map_frame; double tf_timeout; }; extern Options options;",
+    "input.h": """#include <sensor_msgs/Image.h>
+        extern ros::NodeHandle nh; extern FrameTransforms transforms; void hold(const std::string&);
+        void draw(const sensor_msgs::Image&, const Eigen::Isometry3d& in_map, const Eigen::Isometry3d& on_vehicle);""",
+    "input_judge.h": """extern InputJudge::Moment now; extern InputRules rules; extern ros::Time stamp; extern std::string frame;
+        extern std::size_t bytes; extern boost::shared_ptr<const void> message; extern InputJudge::Place place;
+        void tell(const std::string&);""",
     "speed_limit_receiver.h": """struct Loop { void setSpeedLimits(const SpeedLimits&); };
         extern ros::NodeHandle nh; extern Loop loop;""",
     "scan_messages.h": """#include "ros/input/frame_lookup.h"
