@@ -1,5 +1,6 @@
 #include "ros/messages/cloud_reader.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -27,9 +28,17 @@ const PointField& fieldNamed(const PointCloud2& cloud, const std::string& name) 
                    ", only: " + (names.empty() ? "none" : names));
 }
 
+bool isBigEndian() {
+  const std::uint16_t one = 1;
+  std::uint8_t first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 0;
+}
+
 struct Coordinate {
   std::size_t offset;
   bool is_double;
+  bool is_reversed;  // of another byte order than this computer's
 
   double read(const std::uint8_t* point) const {
     if (is_double) return load<double>(point + offset);
@@ -39,9 +48,12 @@ struct Coordinate {
 
  private:
   template <class Number>
-  static Number load(const std::uint8_t* from) {
+  Number load(const std::uint8_t* from) const {
+    std::uint8_t bytes[sizeof(Number)];
+    std::memcpy(bytes, from, sizeof bytes);
+    if (is_reversed) std::reverse(bytes, bytes + sizeof bytes);
     Number number;
-    std::memcpy(&number, from, sizeof(number));
+    std::memcpy(&number, bytes, sizeof bytes);
     return number;
   }
 };
@@ -52,7 +64,8 @@ Coordinate coordinateOf(const PointCloud2& cloud, const std::string& name) {
     throw InputError("the cloud's field " + name +
                      " must be FLOAT32 (7) or FLOAT64 (8), got type " +
                      std::to_string(field.datatype));
-  const Coordinate coordinate{field.offset, field.datatype == PointField::FLOAT64};
+  const Coordinate coordinate{field.offset, field.datatype == PointField::FLOAT64,
+                              (cloud.is_bigendian != 0) != isBigEndian()};
   if (coordinate.end() > cloud.point_step)
     throw InputError("the cloud's field " + name + " ends at byte " +
                      std::to_string(coordinate.end()) + " of points of " +
@@ -61,7 +74,6 @@ Coordinate coordinateOf(const PointCloud2& cloud, const std::string& name) {
 }
 
 void checkLayout(const PointCloud2& cloud) {
-  if (cloud.is_bigendian) throw InputError("the cloud is big-endian, which is not read");
   const std::uint64_t row = std::uint64_t{cloud.width} * cloud.point_step;
   if (cloud.height > 1 && row > cloud.row_step)
     throw InputError("the cloud's rows of " + std::to_string(cloud.row_step) +
@@ -113,7 +125,7 @@ std::vector<Eigen::Vector3d> finitePoints(const PointCloud2& cloud) {
   std::vector<Eigen::Vector3d> points;
   points.reserve(reader.size());
   reader.forEach([&](const Eigen::Vector3d& point) {
-    if (point.allFinite()) points.push_back(point);
+    if (point.allFinite() && !point.isZero(0.0)) points.push_back(point);
   });
   return points;
 }

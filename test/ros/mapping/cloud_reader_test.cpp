@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <limits>
 
 #include "support/error_text.h"
@@ -54,8 +56,8 @@ std::string refusal(const PointCloud2& cloud) {
 
 TEST(CloudReader, FieldsStandAtAnyOffsetAsFloatOrDouble) {
   const auto points = finitePoints(oddCloud(3));
-  ASSERT_EQ(points.size(), 3u);
-  EXPECT_EQ(points[2], Eigen::Vector3d(2.0, -2.0, 1.0));
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[1], Eigen::Vector3d(2.0, -2.0, 1.0));
 }
 
 TEST(CloudReader, DoublesKeepTheirDigits) {
@@ -80,9 +82,28 @@ TEST(CloudReader, OrganisedCloudsWithPaddedRows) {
   cloud.width = 1;
   cloud.row_step = 37;
   cloud.data.insert(cloud.data.begin() + 30, 7, 0xff);
-  EXPECT_EQ(finitePoints(cloud).at(1).x(), 1.0);
+  EXPECT_EQ(finitePoints(cloud).at(0).x(), 1.0);
   cloud.data.resize(cloud.data.size() - 1);
   EXPECT_EQ(refusal(cloud), "the cloud of 1x2 points needs 67 bytes, got 66");
+}
+
+// Recordings of computers of the other byte order were refused.
+TEST(CloudReader, CloudsOfTheOtherByteOrderAreRead) {
+  PointCloud2 cloud = oddCloud(3);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (const auto& [at, bytes] : {std::pair(13, 4), std::pair(1, 8), std::pair(20, 4)}) {
+      const auto first = cloud.data.begin() + static_cast<std::ptrdiff_t>(30 * i) + at;
+      std::reverse(first, first + bytes);
+    }
+  cloud.is_bigendian = true;
+  EXPECT_EQ(finitePoints(cloud), finitePoints(oddCloud(3)));
+  EXPECT_EQ(allPoints(cloud), allPoints(oddCloud(3)));
+}
+
+// Livox and others have 0 0 0 for a ray without return: the sensor was an obstacle to itself.
+TEST(CloudReader, TheSensorItselfIsNoPoint) {
+  EXPECT_EQ(finitePoints(oddCloud(3)).size(), 2u);
+  EXPECT_EQ(allPoints(oddCloud(3)).size(), 9u) << "all pixels";
 }
 
 TEST(CloudReader, EmptyClouds) {
@@ -96,7 +117,9 @@ TEST(CloudReader, EmptyClouds) {
 TEST(CloudReader, RowsWithoutPointsTakeNoTime) {
   PointCloud2 cloud = oddCloud(0);
   cloud.height = std::numeric_limits<std::uint32_t>::max();
+  const std::clock_t begin = std::clock();
   for (int i = 0; i < 1000; ++i) EXPECT_TRUE(finitePoints(cloud).empty());
+  EXPECT_LT(std::clock() - begin, CLOCKS_PER_SEC) << "of the processor";
 }
 
 // 64 MB of other bytes, in points of one byte each, took 1.5 GB before the cloud was refused.
@@ -109,9 +132,6 @@ TEST(CloudReader, RoomIsTakenForPointsThatAreThere) {
 
 TEST(CloudReader, WhatCannotBeReadIsRefusedWithASentence) {
   PointCloud2 cloud = oddCloud(2);
-  cloud.is_bigendian = true;
-  EXPECT_EQ(refusal(cloud), "the cloud is big-endian, which is not read");
-  cloud = oddCloud(2);
   cloud.fields[1].name = "depth";
   EXPECT_EQ(refusal(cloud), "the cloud has no field z, only: intensity, depth, y, x");
   cloud = oddCloud(2);
