@@ -36,4 +36,12 @@ double yawOfLevelQuaternion(double x, double y, double z, double w) {
   return of.yaw;
 }
 
+bool isZeroQuaternion(double x, double y, double z, double w) {
+  return x == 0.0 && y == 0.0 && z == 0.0 && w == 0.0;
+}
+
+double yawOfMapOrigin(double x, double y, double z, double w) {
+  return isZeroQuaternion(x, y, z, w) ? 0.0 : yawOfLevelQuaternion(x, y, z, w);
+}
+
 }  // namespace grid_path_planner::base

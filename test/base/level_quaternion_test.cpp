@@ -35,6 +35,16 @@ TEST(LevelQuaternion, WhatHasNoLevelYawIsRefusedWithItsNumbers) {
   EXPECT_TRUE(contains(errorText([&] { yawOfLevelQuaternion(0, 0, nan, 1); }), "must be finite"));
 }
 
+// octomap_server sets the position of its map's origin and leaves (0, 0, 0, 0): /projected_map was refused.
+TEST(MapOrigin, ZerosAreYawZeroAndWhatIsNeitherIsRefused) {
+  EXPECT_TRUE(isZeroQuaternion(0, -0.0, 0, 0));
+  EXPECT_EQ(yawOfMapOrigin(0, 0, 0, 0), 0.0);
+  EXPECT_FALSE(isZeroQuaternion(0, 0, 0, 1));
+  EXPECT_NEAR(yawOfMapOrigin(0, 0, 0.98 * std::sin(0.2), 0.98 * std::cos(0.2)), 0.4, 1e-12);
+  EXPECT_TRUE(contains(errorText([] { yawOfMapOrigin(0, 0, 0, 1e-9); }), "has length zero"));
+  EXPECT_TRUE(contains(errorText([] { yawOfMapOrigin(0.1, 0, 0, 0.995); }), "must be level"));
+}
+
 // Yaw, then pitch, then roll, as vehicles turn: the pitch and the roll leave the yaw as it is.
 TEST(YawAndTilt, OfAnyTurnIsThatOfItsXAxisAndItsZAxis) {
   for (const double yaw : {-3.0, -1.0, 0.0, 0.4, 2.5})

@@ -93,6 +93,18 @@ TEST_F(OccupancyDump, YawComesFromTheQuaternion) {
   EXPECT_NEAR(read(dump_.text()).geometry().origin().yaw, M_PI / 2, 1e-12);
 }
 
+// A dump of octomap_server's map, which has no orientation.
+TEST_F(OccupancyDump, AnOrientationOfZerosIsYawZeroAndTold) {
+  dump_.orientation = " {x: 0.0, y: 0.0, z: 0.0, w: 0.0}";
+  MapFileOptions options;
+  std::vector<std::string> warnings;
+  options.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+  const OccupancyGrid map = readMapFile(folder_.write("a.txt", dump_.text()), options);
+  EXPECT_EQ(map, AsciiMap({"..#", "?.."}, 0.05, {-1.5, 2.0, 0.0}).map);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(contains(warnings[0], "a.txt: its origin has no orientation: yaw 0 is taken"));
+}
+
 TEST_F(OccupancyDump, DataLeftOutIsRefusedWithTheRemedy) {
   dump_.data = " \"<array type: int8, length: 6>\"";
   EXPECT_EQ(errorOf(dump_.text()),
@@ -139,8 +151,8 @@ TEST_F(OccupancyDump, BadInfoIsRefusedWithItsLine) {
         << resolution;
   EXPECT_TRUE(contains(errorWith(&Dump::position, " {x: .nan, y: 0, z: 0}"), "x must be"));
   EXPECT_TRUE(contains(errorWith(&Dump::position, " 5"), "expected a mapping with 'x', got '5'"));
-  EXPECT_TRUE(contains(errorWith(&Dump::orientation, " {x: 0, y: 0, z: 0, w: 0}"),
-                       "a.txt:19: origin: orientation x 0 y 0 z 0 w 0 has length zero"));
+  EXPECT_TRUE(contains(errorWith(&Dump::orientation, " {x: 0, y: 0, z: 0, w: 1e-9}"),
+                       "a.txt:19: origin: orientation x 0 y 0 z 0 w 1e-09 has length zero"));
   EXPECT_TRUE(contains(errorWith(&Dump::orientation, " {x: 0.1, y: 0, z: 0, w: 1}"),
                        "origin: orientation x 0.1 y 0 z 0 w 1 must be level"));
   EXPECT_TRUE(

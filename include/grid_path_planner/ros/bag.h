@@ -4,6 +4,7 @@
 //   OccupancyGrid any = readAnyMapFile("run.bag");  // or any format of readMapFile
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "grid_path_planner/grid/map_file.h"
@@ -13,10 +14,11 @@ namespace grid_path_planner::nodes {
 // The first nav_msgs/OccupancyGrid on `topic`, a leading slash here or in the bag ignored. Throws
 // InputError naming the file where there is no such bag, it is cut short, it has no map on that
 // topic (then naming the topics that have one), the message is no valid map, or `limits` do not allow
-// for it.
+// for it. `warn`, where given, is told of an origin without an orientation.
 grid::OccupancyGrid readMapFromBag(const std::string& file,
                                    const std::string& topic = "projected_map",
-                                   const base::ReadLimits& limits = {});
+                                   const base::ReadLimits& limits = {},
+                                   const std::function<void(const std::string&)>& warn = {});
 
 // A map from any file: a bag (known by its content, or the extension .bag) or what readMapFile
 // reads. `options` override a bag's resolution and origin too.

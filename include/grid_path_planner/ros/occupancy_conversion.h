@@ -28,8 +28,10 @@ std::string frameName(const std::string& frame_id);
 // knows where the sensor was. Throws as frameName does.
 std::string frameInMap(const std::string& frame_id, const std::string& map_frame);
 
-// The geometry that a message describes, without its cells. Throws InputError for what GridGeometry
-// refuses and for an origin that is not level.
+// Whether the orientation of its origin is of zeros, as octomap_server's: it is taken for yaw 0.
+bool hasNoOrientation(const nav_msgs::MapMetaData& info);
+// The geometry that a message describes, without its cells. Throws
+// InputError for what GridGeometry refuses and for an origin that is not level.
 grid::GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info);
 // The origin's z is 0.
 nav_msgs::MapMetaData geometryToMessage(const grid::GridGeometry& geometry,

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "grid/float_decimal.h"
+#include "grid/formats/map_warning.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/base/yaml_file.h"
@@ -12,7 +13,7 @@
 namespace grid_path_planner::grid {
 
 using base::checkIsText, base::InputError, base::parseYaml, base::yamlError, base::yamlNode,
-    base::yamlValue, base::yawOfLevelQuaternion;
+    base::yamlValue, base::yawOfMapOrigin;
 
 namespace {
 
@@ -165,7 +166,7 @@ class DataReader {
   std::vector<std::int8_t> values_;
 };
 
-Origin readOrigin(const YAML::Node& info, const std::string& file) {
+Origin readOrigin(const YAML::Node& info, const std::string& file, const MapFileOptions& options) {
   const YAML::Node origin = yamlNode(info, "origin", file, "a pose");
   const YAML::Node position = yamlNode(origin, "position", file, "x, y and z in metres");
   const YAML::Node orientation = yamlNode(origin, "orientation", file, "x, y, z and w");
@@ -176,7 +177,9 @@ Origin readOrigin(const YAML::Node& info, const std::string& file) {
   const double z = number(orientation, "z"), w = number(orientation, "w");
   const double east = number(position, "x"), north = number(position, "y");
   try {
-    return {east, north, yawOfLevelQuaternion(x, y, z, w)};
+    const double yaw = yawOfMapOrigin(x, y, z, w);
+    if (base::isZeroQuaternion(x, y, z, w)) warnAbout(file, base::kYawAssumed, options);
+    return {east, north, yaw};
   } catch (const InputError& error) {
     throw yamlError(orientation, file, std::string("origin: ") + error.what());
   }
@@ -191,7 +194,7 @@ GridGeometry readGeometry(const YAML::Node& root, const std::string& file,
                                 ? *options.resolution
                                 : printedFloatToDecimal(yamlValue<double>(
                                       info, "resolution", file, "a positive, finite number"));
-  const Origin origin = options.origin ? *options.origin : readOrigin(info, file);
+  const Origin origin = options.origin ? *options.origin : readOrigin(info, file, options);
   try {
     return GridGeometry(width, height, resolution, origin);
   } catch (const InputError& error) {

@@ -11,13 +11,14 @@ namespace grid_path_planner::nodes {
 
 SpeedLimitReceiver::SpeedLimitReceiver(ros::NodeHandle nh, Listener listener)
     : listener_(std::move(listener)),
-      subscriber_(subscribeChecked<nav_msgs::OccupancyGrid>(
-          nh, "speed_limit", 1,
-          [this](const nav_msgs::OccupancyGrid& message) { onMap(message); })) {}
+      subscriber_(subscribeChecked<nav_msgs::OccupancyGrid, const MapEvent&>(
+          nh, "speed_limit", 1, [this](const MapEvent& event) { onMap(event); })) {}
 
-void SpeedLimitReceiver::onMap(const nav_msgs::OccupancyGrid& message) {
+void SpeedLimitReceiver::onMap(const MapEvent& event) {
+  const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
   try {
     const auto grid = std::make_shared<grid::OccupancyGrid>(occupancyFromMessage(message));
+    tellTraits(event);
     listener_({grid, frameName(message.header.frame_id)});
     state_ = "a map of speed limits is heeded";
   } catch (const base::InputError& error) {

@@ -5,7 +5,6 @@
 // A message that is no map is refused with an error, and the map before it stays.
 #pragma once
 
-#include <nav_msgs/OccupancyGrid.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
@@ -14,6 +13,7 @@
 #include <string>
 
 #include "grid_path_planner/grid/occupancy.h"
+#include "ros/input/foreign_rules.h"
 
 namespace grid_path_planner::nodes {
 
@@ -33,7 +33,7 @@ class SpeedLimitReceiver {
   const std::string& state() const { return state_; }
 
  private:
-  void onMap(const nav_msgs::OccupancyGrid& message);
+  void onMap(const MapEvent& event);
 
   const Listener listener_;
   std::string state_ = "no map of speed limits has come";

@@ -13,6 +13,7 @@
 #include "ros/guard/incoming/claimed_lengths.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 #include "ros/guard/scheduling/log_throttle.h"
+#include "ros/input/foreign_rules.h"
 #include "ros/messages/map_announcement.h"
 
 namespace grid_path_planner::nodes {
@@ -159,6 +160,7 @@ void MapReceiver::onMap(const MapEvent& event) {
     lost_one_ = owes_map_ = true;  // the grid may have it, and nobody was told
     throw;
   }
+  tellTraits(event);
   if (lacks) noteLoss("A map came that is older than its updates", newest);
   tell(std::move(change));
 }

@@ -16,6 +16,7 @@
 #include "ros/guard/parameters.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 #include "ros/guard/scheduling/log_throttle.h"
+#include "ros/input/foreign_rules.h"
 #include "ros/layers/scan_messages.h"
 #include "ros/messages/file_kinds.h"
 
@@ -172,11 +173,13 @@ void MapLayersNode::listen() {
 
 void MapLayersNode::listenToMask(LayerSource& source, const std::string& topic,
                                  std::function<void(LayeredMap::Map)> use) {
-  subscribers_.push_back(subscribeChecked<nav_msgs::OccupancyGrid>(
-      nh_, topic, 1, [this, &source, use](const nav_msgs::OccupancyGrid& message) {
+  subscribers_.push_back(subscribeChecked<nav_msgs::OccupancyGrid, const MapEvent&>(
+      nh_, topic, 1, [this, &source, use](const MapEvent& event) {
+        const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
         take(source, message.header.stamp, [&] {
           checkFrame(message.header.frame_id, options_);
           use(std::make_shared<OccupancyGrid>(occupancyFromMessage(message)));
+          tellTraits(event);
         });
       }));
 }

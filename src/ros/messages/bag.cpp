@@ -5,6 +5,7 @@
 #include <set>
 
 #include "grid_path_planner/base/files.h"
+#include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/grid/map_file.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/guard/incoming/claimed_lengths.h"
@@ -65,14 +66,18 @@ std::set<std::uint32_t> mapConnections(const BagReader& bag, const std::string& 
 }  // namespace
 
 OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic,
-                             const base::ReadLimits& limits) {
+                             const base::ReadLimits& limits,
+                             const std::function<void(const std::string&)>& warn) {
   return base::readWithin(file, limits, [&](base::ReadLimits& within) {
     const BagReader bag(file, within);
     auto bytes = bag.firstMessage(mapConnections(bag, file, topic));
     if (!bytes) throw InputError(file, "has no message on '" + topic + "'");
     within.take(file, kCopiesOfMap * bytes->size());
     try {
-      return occupancyFromMessage(messageFromBytes<nav_msgs::OccupancyGrid>(*bytes));
+      const auto message = messageFromBytes<nav_msgs::OccupancyGrid>(*bytes);
+      OccupancyGrid map = occupancyFromMessage(message);
+      if (warn && hasNoOrientation(message.info)) warn(file + ": " + base::kYawAssumed);
+      return map;
     } catch (const InputError& error) {
       throw InputError(file, "the first map on '" + topic + "': " + error.what());
     }
@@ -83,7 +88,7 @@ OccupancyGrid readAnyMapFile(const std::string& file, const MapFileOptions& opti
   const bool is_bag =
       extensionOf(file) == "bag" || beginningOf(file, kBeginningOfBags.size()) == kBeginningOfBags;
   if (!is_bag) return readMapFile(file, options);
-  OccupancyGrid map = readMapFromBag(file, "projected_map", options.limits);
+  OccupancyGrid map = readMapFromBag(file, "projected_map", options.limits, options.warn);
   const GridGeometry& own = map.geometry();
   const GridGeometry geometry =
       mapGeometry(file, own.width(), own.height(), own.resolution(), own.origin(), options);

@@ -10,7 +10,7 @@
 namespace grid_path_planner::nodes {
 
 using base::InputError;
-using base::yawOfLevelQuaternion;
+using base::yawOfMapOrigin;
 using grid::checkOccupancyValues;
 using grid::floatToDecimal;
 using grid::GridGeometry;
@@ -26,6 +26,11 @@ std::string frameInMap(const std::string& frame_id, const std::string& map_frame
   return name.empty() ? frameName(map_frame) : name;
 }
 
+bool hasNoOrientation(const nav_msgs::MapMetaData& info) {
+  const auto& of = info.origin.orientation;
+  return base::isZeroQuaternion(of.x, of.y, of.z, of.w);
+}
+
 GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info) {
   constexpr std::uint32_t kMost = std::numeric_limits<int>::max();
   if (info.width > kMost || info.height > kMost)
@@ -33,8 +38,7 @@ GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info) {
                      " cells is too large");
   const auto& position = info.origin.position;
   const auto& orientation = info.origin.orientation;
-  const double yaw =
-      yawOfLevelQuaternion(orientation.x, orientation.y, orientation.z, orientation.w);
+  const double yaw = yawOfMapOrigin(orientation.x, orientation.y, orientation.z, orientation.w);
   return GridGeometry(static_cast<int>(info.width), static_cast<int>(info.height),
                       floatToDecimal(info.resolution), {position.x, position.y, yaw});
 }

@@ -111,8 +111,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
 // Last: what comes, comes in another thread while the constructor of a nodelet runs.
 void SimulatorNode::listen(ros::NodeHandle& private_nh) {
   if (options_.world.empty())
-    map_subscriber_ = subscribeChecked<nav_msgs::OccupancyGrid>(
-        nh_, "projected_map", 1, [this](const nav_msgs::OccupancyGrid& map) { onMap(map); });
+    map_subscriber_ = subscribeChecked<nav_msgs::OccupancyGrid, const MapEvent&>(
+        nh_, "projected_map", 1, [this](const MapEvent& event) { onMap(event); });
   command_subscriber_ = subscribeChecked<geometry_msgs::Twist>(
       nh_, "cmd_vel", 10, [this](const geometry_msgs::Twist& message) { onCommand(message); });
   reconfigurable_ = std::make_unique<Reconfigurable<SimulatorConfig, SimulatorOptions>>(
@@ -203,12 +203,14 @@ void SimulatorNode::onCommand(const geometry_msgs::Twist& message) {
   }
 }
 
-void SimulatorNode::onMap(const nav_msgs::OccupancyGrid& message) {
+void SimulatorNode::onMap(const MapEvent& event) {
+  const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
   try {
     const std::string frame = frameInMap(message.header.frame_id, options_.map_frame);
     if (frame != options_.map_frame)
       throw InputError("its frame must be " + options_.map_frame + ", got '" + frame + "'");
     const auto map = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
+    tellTraits(event);
     vehicle_->setMap(map);
     if (!std::exchange(has_map_, true)) warnOfStart(*map, vehicle_->state(), options_);
     contact_publisher_.start(*vehicle_);

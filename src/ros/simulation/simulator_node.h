@@ -27,7 +27,6 @@
 #pragma once
 
 #include <geometry_msgs/Twist.h>
-#include <nav_msgs/OccupancyGrid.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/steady_timer.h>
@@ -40,6 +39,7 @@
 #include "grid_path_planner/simulation/dead_reckoning.h"
 #include "grid_path_planner/simulation/vehicle.h"
 #include "ros/guard/node_files.h"
+#include "ros/input/foreign_rules.h"
 #include "ros/simulation/contact_publisher.h"
 #include "ros/simulation/depth_camera_publisher.h"
 #include "ros/simulation/image_camera_publisher.h"
@@ -78,7 +78,7 @@ class SimulatorNode {
   void startTimer();
 
   void onCommand(const geometry_msgs::Twist& message);
-  void onMap(const nav_msgs::OccupancyGrid& message);
+  void onMap(const MapEvent& event);
   void onTimer();
   void addElapsedTime();
   void step();

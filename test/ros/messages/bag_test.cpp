@@ -150,6 +150,24 @@ TEST_F(MapBag, AMapThatIsNoneIsRefused) {
             "a.bag: the first map on 'projected_map': a map of 3x2 cells needs 6 values, got 5");
 }
 
+// As octomap_server's.
+TEST_F(MapBag, AnOriginWithoutAnOrientationIsYawZeroAndTold) {
+  nav_msgs::OccupancyGrid message = occupancyToMessage(first_, "map", ros::Time(1));
+  message.info.origin.orientation.w = 0.0;
+  const std::string file = folder_.path("a.bag");
+  {
+    rosbag::Bag bag(file, rosbag::bagmode::Write);
+    bag.write("projected_map", ros::Time(1), message);
+    bag.write("projected_map", ros::Time(2), message);
+  }
+  MapFileOptions options;
+  std::vector<std::string> warnings;
+  options.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+  EXPECT_EQ(readAnyMapFile(file, options), first_);
+  EXPECT_EQ(warnings,
+            std::vector<std::string>{file + ": its origin has no orientation: yaw 0 is taken"});
+}
+
 // 60 MB in some kB.
 TEST_F(MapBag, AChunkThatUnpacksToMoreThanTheLimitIsRefused) {
   const OccupancyGrid large(GridGeometry(8000, 8000, 0.05));

@@ -1,0 +1,48 @@
+// What other programs' messages mean where they are wrong by the letter and can mean one thing only: taken as the field
+// takes it, and told once a publisher. The rules are here; no node has its own.
+//
+//   use(occupancyFromMessage(*event.getConstMessage()));
+//   tellTraits(event);
+//
+// What the core reads of files too is in base/ (level_quaternion.h); there the reader's caller is told.
+#pragma once
+
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/message_event.h>
+
+#include <cstddef>
+#include <mutex>
+#include <set>
+#include <string>
+
+namespace grid_path_planner::nodes {
+
+using MapEvent = ros::MessageEvent<nav_msgs::OccupancyGrid const>;
+
+// Which things were told. Thread-safe; of more than kMost it forgets that they were.
+class ToldOnce {
+ public:
+  static constexpr std::size_t kMost = 1000;
+
+  // Whether `thing` was not told before; then it counts as told.
+  bool isNew(const std::string& thing);
+
+ private:
+  std::mutex mutex_;
+  std::set<std::string> told_;
+};
+
+void warnOnce(const std::string& topic, const std::string& publisher, const std::string& trait);
+// As the publisher names it; empty where it does not.
+std::string topicOf(const boost::shared_ptr<ros::M_string>& connection_header);
+
+// Warns in the log, once in this process for each publisher and topic: "/projected_map of /octomap_server: `trait`".
+template <class Message>
+void warnOnce(const ros::MessageEvent<const Message>& event, const std::string& trait) {
+  warnOnce(topicOf(event.getConnectionHeaderPtr()), event.getPublisherName(), trait);
+}
+
+// Warns of what a map that is taken has of such things: an origin without an orientation, as octomap_server's.
+void tellTraits(const MapEvent& event);
+
+}  // namespace grid_path_planner::nodes
