@@ -61,6 +61,20 @@ TEST_F(OccupancyDump, TheFirstOfSeveralMessagesIsTaken) {
   EXPECT_EQ(read(dump_.text() + "[[[ cut of").values(), (Values{0, 0, 100, -1, 0, 0}));
 }
 
+// octomap_server's first message has no cells: it was refused, and with it the file.
+TEST_F(OccupancyDump, MapsWithoutCellsArePassedOver) {
+  Dump empty;
+  empty.width = empty.height = "0";
+  empty.resolution = "0.0";
+  empty.data = " []";
+  EXPECT_EQ(read(empty.text() + empty.text() + dump_.text()),
+            AsciiMap({"..#", "?.."}, 0.05, {-1.5, 2.0, 0.0}).map);
+  EXPECT_TRUE(contains(errorOf(empty.text() + empty.text()), "at least one cell, got 0x0"));
+  dump_.width = "abc";
+  EXPECT_TRUE(contains(errorOf(empty.text() + dump_.text()), "a.txt:37: width must be"))
+      << "by the line of the file";
+}
+
 // yaml.dump of the original study's list.
 TEST_F(OccupancyDump, AListWithOneValueALineIsRead) {
   for (const char* data : {"\n- 0\n- 0\n- 100\n- -1\n- 0\n- 0",

@@ -1,6 +1,6 @@
 // Reads the map that was recorded in a bag.
 //
-//   OccupancyGrid map = readMapFromBag("run.bag");  // first message of projected_map
+//   OccupancyGrid map = readMapFromBag("run.bag");  // first map of projected_map
 //   OccupancyGrid any = readAnyMapFile("run.bag");  // or any format of readMapFile
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace grid_path_planner::nodes {
 
-// The first nav_msgs/OccupancyGrid on `topic`, a leading slash here or in the bag ignored. Throws
+// The first nav_msgs/OccupancyGrid with cells on `topic`, a leading slash here or in the bag ignored. Throws
 // InputError naming the file where there is no such bag, it is cut short, it has no map on that
 // topic (then naming the topics that have one), the message is no valid map, or `limits` do not allow
 // for it. `warn`, where given, is told of an origin without an orientation.

@@ -37,6 +37,10 @@ grid::GridGeometry geometryFromMessage(const nav_msgs::MapMetaData& info);
 nav_msgs::MapMetaData geometryToMessage(const grid::GridGeometry& geometry,
                                         const ros::Time& load_time);
 
+// Whether it has no cells, as what octomap_server sends before it has seen anything, without a frame: no map yet, which
+// occupancyFromMessage refuses.
+bool isEmptyMap(const nav_msgs::OccupancyGrid& message);
+
 // Throws InputError for a message that is no map: no cells, a number of values other than width x
 // height, a value outside -1..100, a resolution that is not positive and finite, an origin that is
 // not finite or not level.

@@ -35,22 +35,22 @@ bool isSpace(char letter) {
   return letter == ' ' || letter == '\t' || letter == '\r';
 }
 
-// Up to the second "---" at the left edge, or the first where something stands before it.
-std::string_view firstDocument(std::string_view text) {
+// Of the document from `begin` on: at the second "---" at the left edge, or the first where something stands before it.
+std::size_t endOfDocument(std::string_view text, std::size_t begin) {
   bool begun = false;
-  for (std::size_t at = 0; at < text.size(); at = nextLine(text, at)) {
+  for (std::size_t at = begin; at < text.size(); at = nextLine(text, at)) {
     const std::string_view line = text.substr(at);
-    if (startsWith(line, "---") && begun) return text.substr(0, at);
+    if (startsWith(line, "---") && begun) return at;
     const bool blank = line.empty() || line.front() == '\n' || line.front() == '\r';
     begun = begun || (!blank && line.front() != '#' && line.front() != '%' && line.front() != '-');
   }
-  return text;
+  return text.size();
 }
 
-// Where the key `data` begins, kNone if nowhere.
-std::size_t findData(std::string_view document) {
-  for (std::size_t at = 0; at < document.size(); at = nextLine(document, at))
-    if (startsWith(document.substr(at), kDataKey)) return at;
+// Where the key `data` of the document between begins, kNone if nowhere.
+std::size_t findData(std::string_view text, std::size_t begin, std::size_t end) {
+  for (std::size_t at = begin; at < end; at = nextLine(text, at))
+    if (startsWith(text.substr(at), kDataKey)) return at;
   return kNone;
 }
 
@@ -202,31 +202,56 @@ GridGeometry readGeometry(const YAML::Node& root, const std::string& file,
   }
 }
 
+// Where a document of the text lies, and the key `data` in it, kNone if nowhere.
+struct Document {
+  Document(std::string_view text, std::size_t from)
+      : begin(from), end(endOfDocument(text, begin)), data(findData(text, begin, end)) {}
+
+  std::size_t begin, end, data;
+};
+
+// What a document says beside its list of data, which ends at `data_end`: little. The lines before it and those of the list
+// are there, empty, so that errors name the right ones.
+std::string withoutData(std::string_view text, const Document& document, std::size_t data_end) {
+  const auto lines = [text](std::size_t from, std::size_t to) {
+    return std::string(std::count(text.begin() + from, text.begin() + to, '\n'), '\n');
+  };
+  std::string rest = lines(0, document.begin);
+  rest.append(text.substr(document.begin, document.data - document.begin));
+  rest.append(lines(document.data, data_end));
+  rest.append(text.substr(data_end, document.end - data_end));
+  return rest;
+}
+
 }  // namespace
 
 bool looksLikeOccupancyDump(const std::string& text) {
-  return findData(firstDocument(text)) != kNone;
+  return Document(text, 0).data != kNone;
 }
 
 OccupancyGrid parseOccupancyDump(const std::string& text, const std::string& file,
                                  MapFileOptions& options) {
   options.limits.take(file, kMostOfText * text.size());
   checkIsText(text, file);
-  const std::string_view document = firstDocument(text);
-  const std::size_t begin = findData(document);
-  if (begin == kNone) throw InputError(file, "has no 'data', the list of the map's values");
-  DataReader data(document, begin + kDataKey.size(), file);
-  std::vector<std::int8_t> values = data.read();
-  // The rest is small; the data's lines stay, empty, so that errors name the right ones.
-  std::string rest(document.substr(0, begin));
-  rest.append(std::count(document.begin() + begin, document.begin() + data.end(), '\n'), '\n');
-  rest.append(document.substr(data.end()));
-  const GridGeometry geometry = readGeometry(parseYaml(rest, file, options.limits), file, options);
-  try {
-    return OccupancyGrid(geometry, std::move(values));
-  } catch (const InputError& error) {
-    throw InputError(file, error.what());
+  for (Document document(text, 0); document.data != kNone;) {
+    DataReader data(std::string_view(text).substr(0, document.end), document.data + kDataKey.size(),
+                    file);
+    std::vector<std::int8_t> values = data.read();
+    const Document next(text, document.end);
+    if (values.empty() && next.data != kNone) {
+      document = next;
+      continue;
+    }
+    const YAML::Node root =
+        parseYaml(withoutData(text, document, data.end()), file, options.limits);
+    const GridGeometry geometry = readGeometry(root, file, options);
+    try {
+      return OccupancyGrid(geometry, std::move(values));
+    } catch (const InputError& error) {
+      throw InputError(file, error.what());
+    }
   }
+  throw InputError(file, "has no 'data', the list of the map's values");
 }
 
 }  // namespace grid_path_planner::grid

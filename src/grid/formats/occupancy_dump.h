@@ -13,7 +13,7 @@
 //   ---
 //
 // The data, a list in brackets or one value a line behind a dash, is read as a stream: a map of
-// 2000x2000 cells needs its text and 4 MB. Of several messages the first is taken.
+// 2000x2000 cells needs its text and 4 MB. Of several messages the first with cells is taken.
 #pragma once
 
 #include <string>

@@ -15,6 +15,7 @@ SpeedLimitReceiver::SpeedLimitReceiver(ros::NodeHandle nh, Listener listener)
           nh, "speed_limit", 1, [this](const MapEvent& event) { onMap(event); })) {}
 
 void SpeedLimitReceiver::onMap(const MapEvent& event) {
+  if (isNotYet(event)) return;
   const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
   try {
     const auto grid = std::make_shared<grid::OccupancyGrid>(occupancyFromMessage(message));

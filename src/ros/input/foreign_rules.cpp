@@ -26,6 +26,12 @@ std::string topicOf(const boost::shared_ptr<ros::M_string>& connection_header) {
   return topic == connection_header->end() ? "" : topic->second;
 }
 
+bool isNotYet(const MapEvent& event) {
+  if (!isEmptyMap(*event.getConstMessage())) return false;
+  warnOnce(event, "a map without cells is none yet, and the map before it stays");
+  return true;
+}
+
 void tellTraits(const MapEvent& event) {
   if (hasNoOrientation(event.getConstMessage()->info)) warnOnce(event, base::kYawAssumed);
 }

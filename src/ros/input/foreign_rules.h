@@ -1,6 +1,7 @@
 // What other programs' messages mean where they are wrong by the letter and can mean one thing only: taken as the field
 // takes it, and told once a publisher. The rules are here; no node has its own.
 //
+//   if (isNotYet(event)) return;
 //   use(occupancyFromMessage(*event.getConstMessage()));
 //   tellTraits(event);
 //
@@ -42,6 +43,8 @@ void warnOnce(const ros::MessageEvent<const Message>& event, const std::string& 
   warnOnce(topicOf(event.getConnectionHeaderPtr()), event.getPublisherName(), trait);
 }
 
+// Whether the map that came has no cells, as octomap_server's before it has seen anything: the one before stays. Warns of it.
+bool isNotYet(const MapEvent& event);
 // Warns of what a map that is taken has of such things: an origin without an orientation, as octomap_server's.
 void tellTraits(const MapEvent& event);
 

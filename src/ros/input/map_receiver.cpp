@@ -145,6 +145,7 @@ void MapReceiver::subscribeToMaps() {
 }
 
 void MapReceiver::onMap(const MapEvent& event) {
+  if (isNotYet(event)) return;
   const ros::Time newest = latest().stamp;
   const bool lacks = (isOlder(event) || isAwaited(event.getPublisherName())) &&
                      !recent_.complete(event.getConstMessage()->header.stamp);

@@ -175,6 +175,7 @@ void MapLayersNode::listenToMask(LayerSource& source, const std::string& topic,
                                  std::function<void(LayeredMap::Map)> use) {
   subscribers_.push_back(subscribeChecked<nav_msgs::OccupancyGrid, const MapEvent&>(
       nh_, topic, 1, [this, &source, use](const MapEvent& event) {
+        if (isNotYet(event)) return;
         const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
         take(source, message.header.stamp, [&] {
           checkFrame(message.header.frame_id, options_);

@@ -63,6 +63,38 @@ std::set<std::uint32_t> mapConnections(const BagReader& bag, const std::string& 
                        (maps.empty() ? " nor on any other topic" : ", but on " + listOf(maps)));
 }
 
+// By the beginning of a serialized map. Of one that ends too early nobody knows: it is refused when it is unpacked.
+bool isEmpty(std::string_view bytes) {
+  auto* const data = reinterpret_cast<std::uint8_t*>(const_cast<char*>(bytes.data()));
+  ros::serialization::IStream stream(data, static_cast<std::uint32_t>(bytes.size()));
+  nav_msgs::OccupancyGrid beginning;
+  std::uint32_t cells = 1;
+  try {
+    stream.next(beginning.header);
+    stream.next(beginning.info);
+    stream.next(cells);
+  } catch (const ros::serialization::StreamOverrunException&) {
+    return false;
+  }
+  return cells == 0 && isEmptyMap(beginning);
+}
+
+// The first that has cells.
+std::string firstMap(const BagReader& bag, const std::set<std::uint32_t>& connections,
+                     const std::string& file, const std::string& topic) {
+  std::optional<std::string> first;
+  bool is_empty = false;  // the last one
+  bag.visit(connections, [&](const BagMessage& message) {
+    is_empty = isEmpty(message.bytes);
+    if (is_empty) return true;
+    first = std::string(message.bytes);
+    return false;
+  });
+  if (first) return *std::move(first);
+  throw InputError(file, is_empty ? "has no map with cells on '" + topic + "'"
+                                  : "has no message on '" + topic + "'");
+}
+
 }  // namespace
 
 OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic,
@@ -70,11 +102,10 @@ OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic,
                              const std::function<void(const std::string&)>& warn) {
   return base::readWithin(file, limits, [&](base::ReadLimits& within) {
     const BagReader bag(file, within);
-    auto bytes = bag.firstMessage(mapConnections(bag, file, topic));
-    if (!bytes) throw InputError(file, "has no message on '" + topic + "'");
-    within.take(file, kCopiesOfMap * bytes->size());
+    const std::string bytes = firstMap(bag, mapConnections(bag, file, topic), file, topic);
+    within.take(file, kCopiesOfMap * bytes.size());
     try {
-      const auto message = messageFromBytes<nav_msgs::OccupancyGrid>(*bytes);
+      const auto message = messageFromBytes<nav_msgs::OccupancyGrid>(bytes);
       OccupancyGrid map = occupancyFromMessage(message);
       if (warn && hasNoOrientation(message.info)) warn(file + ": " + base::kYawAssumed);
       return map;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "grid_path_planner/base/errors.h"
 
@@ -219,15 +220,6 @@ void BagReader::walk() {
   // The last records of a bag are one for each chunk.
   if (!bag_header || chunk_infos != bag_header->number("chunk_count", 4))
     throwDamaged("its index does not hold what its header says");
-}
-
-std::optional<std::string> BagReader::firstMessage(const std::set<std::uint32_t>& wanted) const {
-  std::optional<std::string> first;
-  visit(wanted, [&first](const BagMessage& message) {
-    first = std::string(message.bytes);
-    return false;
-  });
-  return first;
 }
 
 void BagReader::visit(const std::set<std::uint32_t>& wanted, const Visit& visit) const {

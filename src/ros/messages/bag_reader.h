@@ -2,7 +2,7 @@
 //
 //   const BagReader bag("run.bag");
 //   for (const BagConnection& connection : bag.connections())
-//     std::optional<std::string> bytes = bag.firstMessage({connection.id});
+//     use(connection.topic, connection.type);
 //   bag.visit({1, 2}, [](const BagMessage& message) { return message.bytes.size() > 9; });
 //
 // rosbag_storage trusts the lengths in a file: one wrong byte of a bag's header makes it read beyond
@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -57,10 +56,6 @@ class BagReader {
 
   // By id.
   const std::vector<BagConnection>& connections() const { return connections_; }
-
-  // The bytes of the first message of any of the `connections`, none where there is none. Throws
-  // InputError where the chunk that should hold it is damaged.
-  std::optional<std::string> firstMessage(const std::set<std::uint32_t>& connections) const;
 
   // Calls `visit` with each message of the `connections`, until it returns false. Throws InputError where
   // a chunk that should hold one is damaged.

@@ -56,6 +56,10 @@ nav_msgs::MapMetaData geometryToMessage(const GridGeometry& geometry, const ros:
   return info;
 }
 
+bool isEmptyMap(const nav_msgs::OccupancyGrid& message) {
+  return message.data.empty() && (message.info.width == 0 || message.info.height == 0);
+}
+
 OccupancyGrid occupancyFromMessage(const nav_msgs::OccupancyGrid& message) {
   OccupancyGrid map(geometryFromMessage(message.info), message.data);
   checkOccupancyValues(map);

@@ -204,6 +204,7 @@ void SimulatorNode::onCommand(const geometry_msgs::Twist& message) {
 }
 
 void SimulatorNode::onMap(const MapEvent& event) {
+  if (isNotYet(event)) return;
   const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
   try {
     const std::string frame = frameInMap(message.header.frame_id, options_.map_frame);

@@ -44,6 +44,20 @@ TEST(ForeignRules, AnOriginWithoutAnOrientationIsToldOnceAPublisher) {
                 "/projected_map of /other: its origin has no orientation: yaw 0 is taken"}));
 }
 
+TEST(ForeignRules, AMapWithoutCellsIsNoneYetAndToldOnce) {
+  const Log log;
+  auto header = boost::make_shared<ros::M_string>();
+  (*header)["callerid"] = "/octomap_server";
+  (*header)["topic"] = "/projected_map";
+  const MapEvent empty(boost::make_shared<nav_msgs::OccupancyGrid>(), header, ros::Time(1));
+  EXPECT_TRUE(isNotYet(empty));
+  EXPECT_TRUE(isNotYet(empty));
+  EXPECT_FALSE(isNotYet(mapOf("/octomap_server", 1.0)));
+  EXPECT_EQ(log.lines,
+            std::vector<std::string>{"/projected_map of /octomap_server: a map without cells is "
+                                     "none yet, and the map before it stays"});
+}
+
 TEST(ForeignRules, NamesOfStrangersAreNotLogged) {
   const Log log;
   tellTraits(mapOf("$(reboot)\x1b[2J", 0.0));

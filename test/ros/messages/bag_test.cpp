@@ -168,6 +168,25 @@ TEST_F(MapBag, AnOriginWithoutAnOrientationIsYawZeroAndTold) {
             std::vector<std::string>{file + ": its origin has no orientation: yaw 0 is taken"});
 }
 
+// octomap_server sends a map without cells and frame before it has seen anything, and all that is recorded begins with it.
+TEST_F(MapBag, MapsWithoutCellsArePassedOver) {
+  const std::string file = folder_.path("a.bag");
+  const auto record = [&](const std::vector<nav_msgs::OccupancyGrid>& maps) {
+    rosbag::Bag bag(file, rosbag::bagmode::Write);
+    ros::Time time(100, 0);
+    for (const auto& map : maps) bag.write("projected_map", time += ros::Duration(1.0), map);
+  };
+  const nav_msgs::OccupancyGrid empty, first = occupancyToMessage(first_, "map", ros::Time(1));
+  record({empty, empty, first});
+  EXPECT_EQ(readMapFromBag(file), first_);
+  record({empty, empty});
+  EXPECT_EQ(errorOf(file), "a.bag: has no map with cells on 'projected_map'");
+  nav_msgs::OccupancyGrid wrong;
+  wrong.data = {0};
+  record({wrong, first});
+  EXPECT_TRUE(contains(errorOf(file), "at least one cell, got 0x0"));
+}
+
 // 60 MB in some kB.
 TEST_F(MapBag, AChunkThatUnpacksToMoreThanTheLimitIsRefused) {
   const OccupancyGrid large(GridGeometry(8000, 8000, 0.05));

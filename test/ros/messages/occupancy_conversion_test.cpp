@@ -80,6 +80,14 @@ TEST(OccupancyConversion, AnOriginWithoutAnOrientationIsYawZero) {
   EXPECT_EQ(occupancyFromMessage(message), occupancyFromMessage(goodMessage()));
 }
 
+TEST(OccupancyConversion, AMapWithoutCellsIsKnown) {
+  EXPECT_FALSE(isEmptyMap(goodMessage()));
+  EXPECT_TRUE(isEmptyMap(nav_msgs::OccupancyGrid()));
+  nav_msgs::OccupancyGrid lacking = goodMessage();
+  lacking.data.clear();
+  EXPECT_FALSE(isEmptyMap(lacking)) << "it is wrong";
+}
+
 TEST(OccupancyConversion, BadMessagesAreRefusedWithTheirValues) {
   using Message = nav_msgs::OccupancyGrid;
   EXPECT_TRUE(contains(errorOf([](Message& m) { m.info.width = m.info.height = 0; }), "0x0"));

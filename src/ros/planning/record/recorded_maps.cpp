@@ -13,6 +13,7 @@ using grid::CellRect;
 using grid::OccupancyGrid;
 
 void RecordedMaps::take(const nav_msgs::OccupancyGrid& message) {
+  if (isEmptyMap(message)) return;
   if (!accepted([&] { replaceMap(message); })) return;
   on_map_(checksum_->value(), *map_);
   while (!recent_.empty() && recent_.front().header.stamp <= stamp_) recent_.pop_front();
