@@ -92,6 +92,11 @@ std::string readWholeFile(const std::string& file, std::size_t largest, ReadLimi
   return content;
 }
 
+void dropByteOrderMark(std::string& content) {
+  constexpr char kMark[] = "\xef\xbb\xbf";
+  if (content.compare(0, 3, kMark) == 0) content.erase(0, 3);
+}
+
 void checkIsText(const std::string& text, const std::string& file) {
   const auto bad = std::find_if_not(text.begin(), text.end(), belongsInText);
   if (bad == text.end()) return;

@@ -19,8 +19,8 @@
 
 namespace grid_path_planner::grid {
 
-using base::extensionOf, base::InputError, base::kLargestYaml, base::parseYaml, base::ReadLimits,
-    base::readWholeFile, base::readWithin;
+using base::dropByteOrderMark, base::extensionOf, base::InputError, base::kLargestYaml,
+    base::parseYaml, base::ReadLimits, base::readWholeFile, base::readWithin;
 
 namespace {
 
@@ -42,7 +42,7 @@ bool isImage(const std::string& content, const std::string& extension) {
 }
 
 bool isMovingAi(const std::string& content, const std::string& extension) {
-  return startsWith(content, "type ") || extension == "map";
+  return startsWith(content, "type ") || startsWith(content, "type\t") || extension == "map";
 }
 
 bool isRectangleMap(const std::string& content, const std::string& extension) {
@@ -122,7 +122,8 @@ OccupancyGrid readUnlessReplaced(const std::string& file, const MapFileOptions& 
     const FileVersion before(file);
     MapFileOptions within = options;
     within.limits = limits;
-    const std::string content = readWholeFile(file, kLargestMapFile, within.limits);
+    std::string content = readWholeFile(file, kLargestMapFile, within.limits);
+    dropByteOrderMark(content);
     try {
       return readMap(content, file, within);
     } catch (const InputError&) {
@@ -141,7 +142,8 @@ OccupancyGrid readMapFile(const std::string& file, const MapFileOptions& options
 }
 
 RowOrder rowOrderOf(const std::string& file) {
-  const std::string content = readWholeFile(file, kLargestMapFile);
+  std::string content = readWholeFile(file, kLargestMapFile);
+  dropByteOrderMark(content);
   const std::string extension = extensionOf(file);
   if (isBag(content, extension)) return RowOrder::FIRST_ROW_FIRST;
   if (isImage(content, extension)) return RowOrder::LAST_ROW_FIRST;

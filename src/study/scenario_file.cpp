@@ -9,7 +9,7 @@
 
 namespace grid_path_planner::study {
 
-using base::InputError, base::readWholeFile;
+using base::dropByteOrderMark, base::InputError, base::readWholeFile;
 using grid::GridGeometry;
 
 namespace {
@@ -44,20 +44,22 @@ ScenarioQuery queryOf(const std::string& file, int line, const std::string& text
 namespace {
 
 std::vector<ScenarioQuery> queriesWithin(const std::string& file, base::ReadLimits& limits) {
-  std::istringstream in(readWholeFile(file, kLargestScenarioFile, limits));
+  std::string content = readWholeFile(file, kLargestScenarioFile, limits);
+  dropByteOrderMark(content);
+  std::istringstream in(content);
   base::ReadPoll poll(limits, file);
   std::vector<ScenarioQuery> queries;
   int line = 0;
   std::size_t decimals = 0;
   for (std::string text; std::getline(in, text);) {
     ++line;
-    if (!text.empty() && text.back() == '\r') text.pop_back();
+    text.erase(text.find_last_not_of(" \t\r") + 1);
     if (line == 1) {
       if (text.rfind("version", 0) != 0)
         throw InputError(file, line, "a scenario file begins with 'version 1'");
       continue;
     }
-    if (text.find_first_not_of(" \t") == std::string::npos) continue;
+    if (text.empty()) continue;
     poll();
     limits.take(file, 2 * sizeof(ScenarioQuery) + text.size());  // the list grows by doubling
     queries.push_back(queryOf(file, line, text));

@@ -8,6 +8,7 @@
 #include "support/error_text.h"
 #include "support/file_size_limit.h"
 #include "support/temporary_folder.h"
+#include "support/text_variants.h"
 
 namespace grid_path_planner::grid {
 namespace {
@@ -138,6 +139,27 @@ TEST_F(MapServerFile, TheWhiteOfAPgmIsWhatItsHeaderSays) {
   EXPECT_EQ(valuesOf("", "P2\n4 1\n100\n0 50 81 100\n"), (Values{100, -1, 0, 0}));
   EXPECT_EQ(valuesOf("", std::string("P5 3 1 65535\n\x00\x00\xcd\xcd\xff\xff", 19)),
             (Values{100, -1, 0}));
+}
+
+// Of a header with CR LF the LF was the first pixel, and each pixel lay one column to the right.
+TEST_F(MapServerFile, WhatEditorsLeaveIsRead) {
+  const std::string pixels = "\n\xfe\x01\xcd";  // the first one is 10
+  for (const char* end : {"\n", "\r\n", "\r"}) {
+    const std::string header = test::replacedAll("P5\n# by hand\n4\t1\n255\n", "\n", end);
+    EXPECT_EQ(valuesOf("", header + pixels), (Values{100, 0, 100, -1}));
+    if (header.back() == '\r') continue;  // the first pixel may end that line
+    EXPECT_EQ(valuesOf("", header + pixels + "\n"), (Values{100, 0, 100, -1})) << "and more bytes";
+  }
+  for (const auto& [name, text] : test::variantsOf("P2\n# by hand\n4 1\n255\n10 254 1 205\n"))
+    EXPECT_EQ(valuesOf("", text), (Values{100, 0, 100, -1})) << name;
+  folder_.write("a.pgm", pgmLine({0, 255}));
+  const std::string yaml =
+      "image: a.pgm\nresolution: 5e-2\norigin: [-1.5, 2.0, 0.25]\nnegate: 1\n"
+      "occupied_thresh: 6.5e-1\nfree_thresh: .196\nmode: trinary\n";
+  for (const auto& [name, text] : test::variantsOf(yaml, ": "))
+    EXPECT_EQ(readMapFile(folder_.write("a.yaml", text)),
+              OccupancyGrid(GridGeometry(2, 1, 0.05, {-1.5, 2.0, 0.25}), Values{0, 100}))
+        << name;
 }
 
 TEST_F(MapServerFile, ABitmapIsAnImageToo) {

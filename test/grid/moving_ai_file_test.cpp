@@ -4,6 +4,7 @@
 #include "support/ascii_map.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
+#include "support/text_variants.h"
 
 namespace grid_path_planner::grid {
 namespace {
@@ -67,6 +68,15 @@ TEST_F(MovingAiFile, GeometryIsOverridable) {
 TEST_F(MovingAiFile, LineEndsOfWindowsAndAMissingLastOneAreRead) {
   EXPECT_EQ(read("type octile\r\nheight 2\r\nwidth 2\r\nmap\r\n.@\r\n..").values(),
             (std::vector<std::int8_t>{0, 100, 0, 0}));
+}
+
+// One of them with a tab, or a mark before "type", was refused.
+TEST_F(MovingAiFile, WhatEditorsLeaveIsRead) {
+  for (const auto& [name, text] : test::variantsOf("type octile\nheight 2\nwidth 2\nmap\n.@\n..\n"))
+    for (const char* file : {"a.map", "a.txt"})
+      EXPECT_EQ(readMapFile(folder_.write(file, text)).values(),
+                (std::vector<std::int8_t>{0, 100, 0, 0}))
+          << name;
 }
 
 TEST_F(MovingAiFile, WrittenAndReadBackFreeIsFree) {

@@ -9,6 +9,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
+#include "support/text_variants.h"
 
 namespace grid_path_planner::path {
 namespace {
@@ -50,6 +51,30 @@ TEST_F(WaypointFormats, ReadsTheFilesOfUuvSimulator) {
   EXPECT_EQ(path.poses[0].position, Eigen::Vector3d(1.0, -2.5, -20.0));
   EXPECT_EQ(path.poses[0].yaw, 1.5);
   EXPECT_NEAR(path.poses[1].yaw, M_PI / 2, 1e-12) << "along the path";
+}
+
+// Spreadsheets begin UTF-8 with a mark, and Windows ends lines with CR LF.
+TEST_F(WaypointFormats, WhatEditorsLeaveIsRead) {
+  const std::pair<const char*, const char*> files[] = {
+      {"a.csv", "# frame_id: odom\nx,y,z,yaw\n1,2,3,0.5\n"},
+      {"b.csv", "1, 2, 3, 0.5\n"},
+      {"uuv.yaml",
+       "inertial_frame_id: world\nwaypoints:\n- heading: 0.5\n  point: [1, 2, 3]\n"
+       "  max_forward_speed: 1\n  use_fixed_heading: true\n"},
+      {"poses.yaml",
+       "poses:\n- position: {x: 1, y: 2, z: 3}\n"
+       "  orientation: {x: 0, y: 0, z: 0.247403959, w: 0.968912422}\n"},
+      {"planner.yaml",
+       "header: {frame_id: map}\nwaypoints:\n  - position: {x: 1.0, y: 2.0, z: 3.0}\n"
+       "    orientation: {x: 0.0, y: 0.0, z: 0.247403959, w: 0.968912422}\n"}};
+  for (const auto& [file, content] : files)
+    for (const auto& [name, text] :
+         test::variantsOf(content, std::string(file).back() == 'v' ? " " : ": ")) {
+      const Path path = read(file, text);
+      ASSERT_EQ(path.poses.size(), 1u) << file << ", " << name;
+      EXPECT_EQ(path.poses[0].position, Eigen::Vector3d(1.0, 2.0, 3.0)) << file << ", " << name;
+      EXPECT_NEAR(path.poses[0].yaw, 0.5, 1e-8) << file << ", " << name;
+    }
 }
 
 // The older files are the list alone.

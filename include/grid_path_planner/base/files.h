@@ -49,6 +49,9 @@ std::string readWholeFile(const std::string& file, std::size_t largest);
 // The same within `limits`, of which the bytes are taken.
 std::string readWholeFile(const std::string& file, std::size_t largest, ReadLimits& limits);
 
+// Removes the mark (EF BB BF) with which editors of Windows begin a text in UTF-8.
+void dropByteOrderMark(std::string& content);
+
 // Throws InputError naming the file and the line (from 1) where `text` holds a NUL byte or another
 // control character that no text file has: a picture or a bag given by mistake.
 void checkIsText(const std::string& text, const std::string& file);

@@ -17,8 +17,8 @@
 
 namespace grid_path_planner::grid {
 
-using base::decimalText, base::extensionOf, base::InputError, base::PartState, base::partState,
-    base::readWholeFile, base::writeFileAtomically;
+using base::decimalText, base::dropByteOrderMark, base::extensionOf, base::InputError,
+    base::PartState, base::partState, base::readWholeFile, base::writeFileAtomically;
 
 namespace {
 
@@ -50,9 +50,10 @@ cv::Mat decode(const std::string& content, const std::string& file, const ImageL
 
 cv::Mat readPixels(const std::string& file, const ImageLimits& limits,
                    const MapFileOptions& options) {
-  const std::string content = readWholeFile(file, kLargestMapFile, limits.limits);
+  std::string content = readWholeFile(file, kLargestMapFile, limits.limits);
   if (partState(file, content) == PartState::CHANGED)
     warnAbout(file, "was changed since it was written with its map", options);
+  dropByteOrderMark(content);
   return decode(content, file, limits);
 }
 

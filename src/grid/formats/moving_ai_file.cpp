@@ -1,5 +1,7 @@
 #include "grid/formats/moving_ai_file.h"
 
+#include <algorithm>
+#include <optional>
 #include <string_view>
 
 #include "grid/formats/map_warning.h"
@@ -11,6 +13,13 @@ namespace grid_path_planner::grid {
 using base::checkIsText, base::InputError, base::writeFileAtomically;
 
 namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+
+// Without the blanks behind its first `count` letters.
+std::string_view withoutBlanksAfter(std::size_t count, std::string_view line) {
+  return line.substr(0, std::max(count, line.find_last_not_of(kBlanks) + 1));
+}
 
 // The lines of a text, one after the other, without their ends.
 class Lines {
@@ -55,11 +64,15 @@ struct Header {
   int height = 0;
 };
 
-// "height 49": the number behind `key`.
-int sideIn(std::string_view line, std::string_view key, const std::string& file, int number) {
-  std::string_view digits = line.substr(key.size());
-  while (!digits.empty() && digits.front() == ' ') digits.remove_prefix(1);
-  while (!digits.empty() && digits.back() == ' ') digits.remove_suffix(1);
+// "height 49": what stands behind `key`; none where the line does not begin with it.
+std::optional<std::string_view> valueOf(std::string_view line, std::string_view key) {
+  if (line.substr(0, key.size()) != key) return std::nullopt;
+  const std::string_view rest = line.substr(key.size());
+  const std::size_t begin = std::min(rest.find_first_not_of(kBlanks), rest.size());
+  return begin == 0 && !rest.empty() ? std::nullopt : std::optional(rest.substr(begin));
+}
+
+int sideFrom(std::string_view digits, std::string_view key, const std::string& file, int number) {
   const int side = positiveInteger(digits);
   if (side == 0)
     throw InputError(
@@ -68,21 +81,22 @@ int sideIn(std::string_view line, std::string_view key, const std::string& file,
   return side;
 }
 
-bool startsWith(std::string_view line, std::string_view key) {
-  return line.substr(0, key.size()) == key;
-}
-
 // Reads up to and with the line "map".
 Header readHeader(Lines& lines, const std::string& file) {
   Header header;
   std::string_view line;
-  if (!lines.next(line) || line != "type octile")
+  const auto next = [&] {
+    const bool is_there = lines.next(line);
+    line = withoutBlanksAfter(0, line);
+    return is_there;
+  };
+  if (!next() || valueOf(line, "type") != "octile")
     throw InputError(file, 1, "a MovingAI map begins with 'type octile', got " + shown(line));
-  while (lines.next(line) && line != "map") {
-    if (startsWith(line, "width "))
-      header.width = sideIn(line, "width", file, lines.number());
-    else if (startsWith(line, "height "))
-      header.height = sideIn(line, "height", file, lines.number());
+  while (next() && line != "map") {
+    if (const auto width = valueOf(line, "width"))
+      header.width = sideFrom(*width, "width", file, lines.number());
+    else if (const auto height = valueOf(line, "height"))
+      header.height = sideFrom(*height, "height", file, lines.number());
     else
       throw InputError(file, lines.number(),
                        "expected 'height', 'width' or 'map', got " + shown(line));
@@ -106,6 +120,7 @@ struct Strangers {
 
 void readRow(std::string_view line, int number, const std::string& file, OccupancyGrid& map,
              int row, Strangers& strangers) {
+  line = withoutBlanksAfter(static_cast<std::size_t>(map.width()), line);
   if (line.size() != static_cast<std::size_t>(map.width()))
     throw InputError(file, number,
                      "a row of the map has " + std::to_string(map.width()) + " cells, got " +
@@ -144,7 +159,7 @@ void readRows(Lines& lines, const std::string& file, OccupancyGrid& map, Strange
     readRow(line, lines.number(), file, map, row, strangers);
   }
   while (lines.next(line))
-    if (!line.empty())
+    if (!withoutBlanksAfter(0, line).empty())
       throw InputError(file, lines.number(),
                        "has more than the " + std::to_string(map.height()) + " rows of its header");
 }

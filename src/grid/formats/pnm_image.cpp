@@ -59,7 +59,13 @@ class PnmReader {
     width_ = *width;
     height_ = *height;
     white_ = *white;
-    if (!isText() && at_ < content_.size()) ++at_;  // one byte of white space ends the header
+    if (!isText()) endHeader();
+  }
+  // One byte of white space, or CR LF as Windows ends lines, where what is left holds the pixels.
+  void endHeader() {
+    const std::size_t left = content_.size() - at_;
+    const bool two = content_.compare(at_, 2, "\r\n") == 0 && left >= 2 + leastBytes();
+    at_ += std::min<std::size_t>(left, two ? 2 : 1);
   }
   std::size_t bytesInRow() const {
     return bits() ? (valuesInRow() + 7) / 8 : valuesInRow() * (white_ > 255 ? 2 : 1);
@@ -127,7 +133,8 @@ class PnmReader {
   }
   void skipSpace() {
     while (at_ < content_.size() && (isSpace(content_[at_]) || content_[at_] == '#'))
-      if (content_[at_++] == '#') at_ = std::min(content_.find('\n', at_), content_.size());
+      if (content_[at_++] == '#')
+        at_ = std::min(content_.find_first_of("\r\n", at_), content_.size());
   }
 
   const std::string& content_;

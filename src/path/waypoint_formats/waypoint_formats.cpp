@@ -97,7 +97,8 @@ Path readWaypoints(const std::string& file, WaypointFormat format,
                    const std::optional<Datum>& datum, const ReadLimits& limits) {
   if (format == WaypointFormat::PLANNER) return readWaypointFile(file, limits).path;
   return base::readWithin(file, limits, [&](ReadLimits& within) {
-    const std::string content = readWholeFile(file, kLargestYaml, within);
+    std::string content = readWholeFile(file, kLargestYaml, within);
+    base::dropByteOrderMark(content);
     base::checkIsText(content, file);
     return pathOfText({content, file, within}, format, datum);
   });
