@@ -162,6 +162,26 @@ TEST_F(MapServerFile, WhatEditorsLeaveIsRead) {
         << name;
 }
 
+// navigation#993: map_saver prints the yaw of octomap_server's map so; it was refused.
+TEST_F(MapServerFile, AYawThatIsNotANumberIsZeroAndTold) {
+  folder_.write("a.pgm", pgmLine({0, 255}));
+  const auto withYaw = [&](const std::string& yaw) {
+    warnings_.clear();
+    const std::string text = "image: a.pgm\nresolution: 1\norigin: [-10, -10, " + yaw + "]\n";
+    return readMapFile(folder_.write("a.yaml", text), options_).geometry();
+  };
+  for (const char* yaw : {"nan", "-nan", ".nan", ".NaN", "-NAN"}) {
+    EXPECT_EQ(withYaw(yaw), GridGeometry(2, 1, 1.0, {-10.0, -10.0, 0.0})) << yaw;
+    EXPECT_EQ(warnings_,
+              std::vector<std::string>{folder_.path("a.yaml") +
+                                       ": its origin has no orientation: yaw 0 is taken"});
+  }
+  EXPECT_EQ(withYaw("0.5"), GridGeometry(2, 1, 1.0, {-10.0, -10.0, 0.5}));
+  EXPECT_TRUE(warnings_.empty());
+  for (const char* yaw : {"nano", "inf", "''", "[nan]"})
+    EXPECT_TRUE(contains(errorText([&] { withYaw(yaw); }), "a number of radians")) << yaw;
+}
+
 TEST_F(MapServerFile, ABitmapIsAnImageToo) {
   const OccupancyGrid map = readMapFile(folder_.write("a.pbm", "P1\n3 1\n1 0 1\n"));
   EXPECT_EQ(map.values(), (Values{100, 0, 100}));

@@ -1,11 +1,14 @@
 #include "grid/formats/map_server_file.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "grid/formats/image_file.h"
 #include "grid/formats/map_warning.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/files.h"
+#include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/base/options.h"
 #include "grid_path_planner/grid/map_file.h"
 
@@ -30,7 +33,23 @@ double readResolution(const YAML::Node& root, const std::string& file) {
   return resolution;
 }
 
-Origin readOrigin(const YAML::Node& root, const std::string& file) {
+// map_saver prints the yaw of an origin without an orientation, as octomap_server's, as nan or -nan.
+bool isNotANumber(const YAML::Node& node) {
+  if (!node.IsScalar()) return false;
+  std::string text = node.Scalar();
+  text.erase(0, text.find_first_not_of("+-."));
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text == "nan";
+}
+
+double readYaw(const YAML::Node& node, const std::string& file, const MapFileOptions& options) {
+  if (!isNotANumber(node)) return yamlAs<double>(node, "origin yaw", file, "a number of radians");
+  warnAbout(file, base::kYawAssumed, options);
+  return 0.0;
+}
+
+Origin readOrigin(const YAML::Node& root, const std::string& file, const MapFileOptions& options) {
   const YAML::Node node = yamlNode(root, "origin", file, kOrigin);
   if (!node.IsSequence() || node.size() != 3)
     throw yamlError(
@@ -39,7 +58,7 @@ Origin readOrigin(const YAML::Node& root, const std::string& file) {
             (node.IsSequence() ? std::to_string(node.size()) + " entries" : describeYaml(node)));
   return {yamlAs<double>(node[0], "origin x", file, "a number of metres"),
           yamlAs<double>(node[1], "origin y", file, "a number of metres"),
-          yamlAs<double>(node[2], "origin yaw", file, "a number of radians")};
+          readYaw(node[2], file, options)};
 }
 
 bool readNegate(const YAML::Node& root, const std::string& file) {
@@ -117,7 +136,7 @@ OccupancyGrid readMapServerMap(const YAML::Node& root, const std::string& file,
               "its cells of " + decimalText(own) + " m are taken for cells of " +
                   decimalText(resolution) + " m",
               options);
-  const Origin origin = options.origin ? *options.origin : readOrigin(root, file);
+  const Origin origin = options.origin ? *options.origin : readOrigin(root, file, options);
   const PixelRule rule = readRule(root, file);
   try {
     return readImageFile(image, rule, resolution, origin, options);

@@ -8,7 +8,7 @@
 //   free_thresh: 0.196
 //   mode: trinary                 # or scale, raw
 //
-// The last four may be missing and then are as above. Keys that are not map_server's are let be.
+// A yaw of nan, as map_saver prints that of octomap_server's maps, is 0 and warned of. The last four may be missing and then are as above. Keys that are not map_server's are let be.
 #pragma once
 
 #include <string>
