@@ -36,6 +36,7 @@ bool endsWith(const std::string& text, const std::string& ending) {
 
 struct Header {
   bool binary;
+  bool coloured = false;
   double resolution = 0.0;
   std::size_t nodes = 0;
   std::size_t end = 0;  // where the nodes begin
@@ -50,11 +51,10 @@ Value headerValue(const std::string& file, int line, std::istringstream& words,
   throw InputError(file, line, std::string("expected ") + expected);
 }
 
-// OctoMap's own kinds by name; other text of a file is not repeated.
-std::string kindOf(const std::string& id) {
-  for (const char* known : {"ColorOcTree", "OcTreeStamped", "CountingOcTree"})
-    if (id == known) return "a tree of kind '" + id + "'";
-  return "a tree of another kind";
+// Whether this reader knows what a node holds. In a .bt it is the same for each kind, and OctoMap does not look at it; in a
+// .ot ColorOcTree has three bytes more, and CountingOcTree no log odds.
+bool isKnown(const std::string& id, bool binary) {
+  return binary || id == "OcTree" || id == "OcTreeStamped" || id == "ColorOcTree";
 }
 
 Header readHeader(const std::string& file, const std::string& content) {
@@ -78,7 +78,10 @@ Header readHeader(const std::string& file, const std::string& content) {
     if (name == "res")
       header.resolution = headerValue<double>(file, number, words, "res and a number of metres");
   }
-  if (id != "OcTree") throw InputError(file, "holds " + kindOf(id) + ", expected OcTree");
+  if (!isKnown(id, header.binary))  // whose text is not repeated
+    throw InputError(file,
+                     "holds a tree of another kind than OcTree, OcTreeStamped and ColorOcTree");
+  header.coloured = id == "ColorOcTree";
   if (!(header.resolution > 0.0 && std::isfinite(header.resolution)))
     throw InputError(file, "has no positive resolution in its header");
   return header;
@@ -137,6 +140,7 @@ class TreeReader {
 
   void readFull(Node* node, int depth) {
     node->setLogOdds(readFloat());
+    for (int colour = 0; header_.coloured && colour < 3; ++colour) readByte();
     const unsigned children = readByte();
     if (children != 0 && depth == kDepth) throwBadNode();
     takeChildren(children);

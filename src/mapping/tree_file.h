@@ -12,7 +12,7 @@ namespace grid_path_planner::mapping {
 
 // The format is recognised by the first line. OctoMap's own readers build an arbitrary tree from a
 // truncated file; this one throws InputError naming the file where it is missing, is not a tree, is
-// of another kind than OcTree, ends early, goes on after the tree, contradicts its header, or needs
+// a .ot of another kind than OcTree, OcTreeStamped and ColorOcTree, whose colours are passed over, ends early, goes on after the tree, contradicts its header, or needs
 // more than `limits`, of which the file and the tree are taken.
 std::unique_ptr<MapTree> readTreeFile(const std::string& file, const OctreeOptions& model,
                                       base::ReadLimits& limits);

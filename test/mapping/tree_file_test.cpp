@@ -1,5 +1,7 @@
 // Trees to files and back, and files that are none.
 #include <gtest/gtest.h>
+#include <octomap/ColorOcTree.h>
+#include <octomap/OcTreeStamped.h>
 
 #include <random>
 #include <string>
@@ -72,6 +74,35 @@ TEST(TreeFile, octomapReadsOursAndWeReadOctomaps) {
   EXPECT_EQ(loaded.bricks().columns().size(), map.bricks().columns().size());
 }
 
+// What RTAB-Map and octomap_server's coloured and tracking variants save: all but OcTree was refused.
+template <class Tree>
+void expectToBeRead(const octomap::OcTree& tree) {
+  const test::TemporaryFolder folder;
+  Tree other(tree.getResolution());
+  octomap::OcTree same(tree.getResolution());
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    other.updateNode(leaf.getKey(), leaf->getLogOdds());
+    same.updateNode(leaf.getKey(), leaf->getLogOdds());
+  }
+  other.write(folder.path("other.ot"));
+  other.writeBinaryConst(folder.path("other.bt"));
+  same.write(folder.path("same.ot"));
+  same.writeBinaryConst(folder.path("same.bt"));
+  for (const char* ending : {".ot", ".bt"}) {
+    OctreeMap loaded{OctreeOptions()}, expected{OctreeOptions()};
+    loaded.load(folder.path(std::string("other") + ending));
+    expected.load(folder.path(std::string("same") + ending));
+    EXPECT_GT(loaded.tree().size(), 100u);
+    test::expectSameTree(loaded.tree(), expected.tree());
+  }
+}
+
+TEST(TreeFile, treesOfOtherKindsAreReadWithoutWhatIsTheirOwn) {
+  const OctreeMap map = randomMap(7);
+  expectToBeRead<octomap::ColorOcTree>(map.tree());
+  expectToBeRead<octomap::OcTreeStamped>(map.tree());
+}
+
 TEST(TreeFile, theFilesResolutionBecomesOursAndEveryColumnHasChanged) {
   const test::TemporaryFolder folder;
   OctreeOptions options;
@@ -123,8 +154,8 @@ TEST(TreeFile, whatIsNoTreeIsRefusedByNameAndTheMapStays) {
       contains(refusal("# Octomap OcTree file\nid OcTree\nsize 0\nres 0\ndata\n"), "resolution"));
   EXPECT_TRUE(contains(refusal("# Octomap OcTree file\nid OcTree\nsize x\n"), "size"));
   EXPECT_TRUE(
-      contains(refusal("# Octomap OcTree file\nid ColorOcTree\nsize 1\nres 0.1\ndata\n12345"),
-               "ColorOcTree"));
+      contains(refusal("# Octomap OcTree file\nid CountingOcTree\nsize 1\nres 0.1\ndata\n12345"),
+               "another kind"));
   for (const std::string& content : {bt, ot}) {
     EXPECT_TRUE(contains(refusal(content.substr(0, content.size() - 1)), "truncated"));
     EXPECT_TRUE(contains(refusal(content + "more"), "after the tree"));
