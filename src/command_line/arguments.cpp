@@ -146,12 +146,21 @@ MapFileOptions readingOptionsFrom(const po::variables_map& values) {
   if (values.count("columns") != 0)
     options.plain_image.columns = static_cast<int>(
         std::min<std::int64_t>(countFrom(values, "columns"), std::numeric_limits<int>::max()));
+  if (values.count("topic") != 0) options.bag_topic = values["topic"].as<std::string>();
   if (values.count("resolution") == 0) return options;
   const std::string& text = values["resolution"].as<std::string>();
   options.resolution = numbersOf("resolution", text, 1, 1)[0];
   if (*options.resolution <= 0.0)
     throw InputError("--resolution must be a positive number of metres, got " + text);
   return options;
+}
+
+void describeMap(po::options_description& known) {
+  known.add_options()(
+      "map", po::value<std::string>()->required(),
+      "map_server YAML, MovingAI .map, image, drawing (vector_map YAML), rectangles, rostopic echo "
+      "dump or bag")("topic", po::value<std::string>(),
+                     "of the map in a bag; default projected_map, or the only one");
 }
 
 void describeReading(po::options_description& known) {

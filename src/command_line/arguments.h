@@ -11,11 +11,6 @@
 
 namespace grid_path_planner::command_line {
 
-// The formats that --map reads, for its help.
-constexpr const char* kMapFiles =
-    "map_server YAML, MovingAI .map, image, drawing (vector_map YAML), rectangles, rostopic echo "
-    "dump or bag";
-
 // Long options only, so that negative numbers parse as values. Prints the help and returns false
 // for --help, and for --complete, which lists the options for shells: one a line, with its choices.
 // Throws InputError for unknown options, naming the closest known one.
@@ -31,10 +26,12 @@ std::vector<double> numbersOf(const std::string& name, const std::string& text, 
 std::int64_t countFrom(const boost::program_options::variables_map& values,
                        const std::string& name);
 
+// --map, which is required, and --topic.
+void describeMap(boost::program_options::options_description& known);
 // --otsu and --columns.
 void describeReading(boost::program_options::options_description& known);
 
-// Options by --resolution, --otsu and --columns, with warnings to the standard error. Throws
+// Options by --resolution, --topic, --otsu and --columns, with warnings to the standard error. Throws
 // InputError.
 grid::MapFileOptions readingOptionsFrom(const boost::program_options::variables_map& values);
 

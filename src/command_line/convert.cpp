@@ -27,9 +27,9 @@ namespace po = boost::program_options;
 
 po::options_description convertOptions() {
   po::options_description known("Options");
-  known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
-      "output", po::value<std::string>()->required(),
-      "OUT.yaml (with OUT-….pgm beside it), OUT.map, OUT.png or OUT.pgm")(
+  describeMap(known);
+  known.add_options()("output", po::value<std::string>()->required(),
+                      "OUT.yaml (with OUT-….pgm beside it), OUT.map, OUT.png or OUT.pgm")(
       "mode", po::value<std::string>(),
       "trinary: free, unknown and occupied survive; raw: every value does; default trinary")(
       "resolution", po::value<std::string>(), "side of a cell instead of the map's own [m]")(

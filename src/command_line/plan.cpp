@@ -43,11 +43,11 @@ po::options_description planOptions(bool round_trip) {
   po::options_description known("Options");
   auto* goal = po::value<std::string>();
   if (!round_trip) goal->required();
-  known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
-      "start", po::value<std::string>()->required(), "X,Y[,Z[,YAW]] in metres, YAW in radians")(
-      "goal", goal, "the same")("via",
-                                po::value<std::vector<std::string>>()->multitoken()->composing(),
-                                "places to pass in between, X,Y[,Z] each: --via 1,2 3,4")(
+  describeMap(known);
+  known.add_options()("start", po::value<std::string>()->required(),
+                      "X,Y[,Z[,YAW]] in metres, YAW in radians")("goal", goal, "the same")(
+      "via", po::value<std::vector<std::string>>()->multitoken()->composing(),
+      "places to pass in between, X,Y[,Z] each: --via 1,2 3,4")(
       "order", po::value<std::string>(),
       "given: the via-points one after the other; best: as costs least, of up to 12 for certain, "
       "of "

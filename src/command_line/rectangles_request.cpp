@@ -37,7 +37,8 @@ DecompositionLimits limitsFrom(const po::variables_map& values, bool merged_runs
 
 po::options_description describeRectangles() {
   po::options_description known("Options");
-  known.add_options()("map", po::value<std::string>()->required(), kMapFiles)(
+  describeMap(known);
+  known.add_options()(
       "resolution", po::value<std::string>(),
       "side of the map's cells instead of its own; of a drawing, how finely it is read [m]")(
       "unknown-is-free", "cut unknown cells into rectangles too")(

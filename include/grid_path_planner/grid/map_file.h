@@ -50,6 +50,8 @@ struct MapFileOptions {
   bool warn_of_cells_of_images = false;
   // Other files are refused with any of these.
   PlainImageOptions plain_image;
+  // Of the map in a bag; empty: projected_map, or the only one. Other files are refused with one (ros/bag.h).
+  std::string bag_topic;
   // Called with a message where a file is doubtful: a colour image, letters that the format does not
   // define.
   std::function<void(const std::string&)> warn;

@@ -2,6 +2,7 @@
 
 #include <nav_msgs/OccupancyGrid.h>
 
+#include <map>
 #include <set>
 
 #include "grid_path_planner/base/files.h"
@@ -23,6 +24,7 @@ using grid::readMapFile;
 
 namespace {
 
+constexpr char kUsualTopic[] = "projected_map";
 // The bytes of the message, the message, and the map made of it.
 constexpr std::size_t kCopiesOfMap = 3;
 constexpr std::string_view kBeginningOfBags = "#ROSBAG";
@@ -32,35 +34,50 @@ std::string beginningOf(const std::string& file, std::size_t count) {
   return base::RegularFile(file).read(0, count);
 }
 
+using Warn = std::function<void(const std::string&)>;
+
 bool isMap(const BagConnection& connection) {
   return connection.type == ros::message_traits::datatype<nav_msgs::OccupancyGrid>() &&
          connection.md5_sum == ros::message_traits::md5sum<nav_msgs::OccupancyGrid>();
-}
-
-std::string listOf(const std::set<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
 }
 
 std::string withoutSlash(const std::string& topic) {
   return !topic.empty() && topic.front() == '/' ? topic.substr(1) : topic;
 }
 
-// The connections that carry maps on `topic`, with and without a leading slash.
-std::set<std::uint32_t> mapConnections(const BagReader& bag, const std::string& file,
-                                       const std::string& topic) {
-  std::set<std::uint32_t> ids;
-  std::set<std::string> maps;
-  for (const BagConnection& connection : bag.connections()) {
-    if (!isMap(connection)) continue;
-    maps.insert(connection.topic);
-    if (withoutSlash(connection.topic) == withoutSlash(topic)) ids.insert(connection.id);
+// A topic of maps, and its connections.
+using MapsOfTopic = std::map<std::string, std::set<std::uint32_t>>;
+
+MapsOfTopic mapsOfTopics(const BagReader& bag) {
+  MapsOfTopic maps;
+  for (const BagConnection& connection : bag.connections())
+    if (isMap(connection)) maps[withoutSlash(connection.topic)].insert(connection.id);
+  return maps;
+}
+
+std::string listOf(const MapsOfTopic& maps) {
+  std::string list;
+  for (const auto& [topic, connections] : maps) list += (list.empty() ? "" : ", ") + topic;
+  return list;
+}
+
+// That of `topic`, or of kUsualTopic, or the only one, of which `warn` is told.
+MapsOfTopic::value_type chosenMaps(const BagReader& bag, const std::string& file,
+                                   const std::string& topic, const Warn& warn) {
+  const MapsOfTopic maps = mapsOfTopics(bag);
+  const std::string wanted = topic.empty() ? kUsualTopic : withoutSlash(topic);
+  if (const auto found = maps.find(wanted); found != maps.end()) return *found;
+  if (topic.empty() && maps.size() == 1) {
+    if (warn)
+      warn(file + ": the map of its topic '" + maps.begin()->first + "' is taken, the only one");
+    return *maps.begin();
   }
-  if (!ids.empty()) return ids;
-  throw InputError(file,
-                   "has no nav_msgs/OccupancyGrid on '" + topic + "'" +
-                       (maps.empty() ? " nor on any other topic" : ", but on " + listOf(maps)));
+  if (maps.empty())
+    throw InputError(file,
+                     "has no nav_msgs/OccupancyGrid on '" + wanted + "' nor on any other topic");
+  throw InputError(
+      file, "has no nav_msgs/OccupancyGrid on '" + wanted + "', but on " + listOf(maps) +
+                (topic.empty() ? ": name one, with --topic, or bag_topic of map_publisher" : ""));
 }
 
 // By the beginning of a serialized map. Of one that ends too early nobody knows: it is refused when it is unpacked.
@@ -98,11 +115,11 @@ std::string firstMap(const BagReader& bag, const std::set<std::uint32_t>& connec
 }  // namespace
 
 OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic,
-                             const base::ReadLimits& limits,
-                             const std::function<void(const std::string&)>& warn) {
+                             const base::ReadLimits& limits, const Warn& warn) {
   return base::readWithin(file, limits, [&](base::ReadLimits& within) {
     const BagReader bag(file, within);
-    const std::string bytes = firstMap(bag, mapConnections(bag, file, topic), file, topic);
+    const auto [name, connections] = chosenMaps(bag, file, topic, warn);
+    const std::string bytes = firstMap(bag, connections, file, name);
     within.take(file, kCopiesOfMap * bytes.size());
     try {
       const auto message = messageFromBytes<nav_msgs::OccupancyGrid>(bytes);
@@ -110,7 +127,7 @@ OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic,
       if (warn && hasNoOrientation(message.info)) warn(file + ": " + base::kYawAssumed);
       return map;
     } catch (const InputError& error) {
-      throw InputError(file, "the first map on '" + topic + "': " + error.what());
+      throw InputError(file, "the first map on '" + name + "': " + error.what());
     }
   });
 }
@@ -118,8 +135,10 @@ OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic,
 OccupancyGrid readAnyMapFile(const std::string& file, const MapFileOptions& options) {
   const bool is_bag =
       extensionOf(file) == "bag" || beginningOf(file, kBeginningOfBags.size()) == kBeginningOfBags;
+  if (!is_bag && !options.bag_topic.empty())
+    throw InputError(file, "is no bag, and has no topic '" + options.bag_topic + "'");
   if (!is_bag) return readMapFile(file, options);
-  OccupancyGrid map = readMapFromBag(file, "projected_map", options.limits, options.warn);
+  OccupancyGrid map = readMapFromBag(file, options.bag_topic, options.limits, options.warn);
   const GridGeometry& own = map.geometry();
   const GridGeometry geometry =
       mapGeometry(file, own.width(), own.height(), own.resolution(), own.origin(), options);

@@ -42,6 +42,7 @@ void checkMapPublisherOptions(const MapPublisherOptions& options) {
         "~filename (_filename:=FILE)");
   checkNetworkText("frame_id", options.frame_id);
   checkNetworkText("topic", options.topic);
+  checkNetworkText("bag_topic", options.bag_topic);
   if (options.frame_id.empty()) throw InputError("frame_id must name a frame, got ''");
   if (options.topic.empty()) throw InputError("topic must name a topic, got ''");
 }
@@ -68,6 +69,7 @@ OccupancyGrid MapPublisherNode::readMap(const MapPublisherOptions& wanted) const
   const std::string& filename = wanted.filename;
   const EndOfNode end;
   MapFileOptions options;
+  options.bag_topic = wanted.bag_topic;
   options.limits = {wanted.reading, end.token()};
   if (files_.isArgument("filename", filename))
     options.warn = [](const std::string& warning) { ROS_WARN_STREAM(warning); };

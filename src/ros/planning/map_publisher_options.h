@@ -10,6 +10,7 @@ namespace grid_path_planner::nodes {
 
 struct MapPublisherOptions {
   std::string filename;  // required
+  std::string bag_topic;
   std::string frame_id = "map";
   std::string topic = "projected_map";
   base::ReadOptions reading;
@@ -22,6 +23,9 @@ void visitOptions(MapPublisherOptions& o, Visitor&& visit) {
             "Map file below the folder to load from: map_server YAML, MovingAI .map, image, "
             "rostopic dump or bag; required, unless the node's argument names one",
             ""});
+  visit("bag_topic", o.bag_topic,
+        base::OptionInfo{
+            "Topic of the map in a bag; empty: projected_map, or the only one that has maps", ""});
   visit("frame_id", o.frame_id, base::OptionInfo{"Frame that the map is published in", ""});
   visit("topic", o.topic,
         base::OptionInfo{"Latched topic that the map is published on; fixed while the node runs",

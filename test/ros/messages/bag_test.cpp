@@ -40,7 +40,7 @@ class MapBag : public testing::Test {
     }
     return file;
   }
-  std::string errorOf(const std::string& file, const std::string& topic = "projected_map") {
+  std::string errorOf(const std::string& file, const std::string& topic = "") {
     const std::string error = errorText([&] { readMapFromBag(file, topic); });
     return error.substr(std::min(error.size(), folder_.path("").size()));
   }
@@ -104,11 +104,40 @@ TEST_F(MapBag, OtherFormatsAreReadToo) {
                        "none.map: cannot be read: No such file or directory"));
 }
 
+// Of SLAM it is map_server's: it was refused, and of grid_path nothing could name it.
+TEST_F(MapBag, TheOnlyTopicOfMapsIsTakenAndTold) {
+  MapFileOptions options;
+  std::vector<std::string> warnings;
+  options.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+  const std::string file = write("/map", {first_, second_});
+  EXPECT_EQ(readAnyMapFile(file, options), first_);
+  EXPECT_EQ(warnings,
+            std::vector<std::string>{file + ": the map of its topic 'map' is taken, the only one"});
+  options.bag_topic = "/map";
+  EXPECT_EQ(readAnyMapFile(file, options), first_);
+  EXPECT_EQ(warnings.size(), 1u) << "it was named";
+}
+
+TEST_F(MapBag, OfSeveralTopicsOneIsNamed) {
+  const std::string file = folder_.path("a.bag");
+  {
+    rosbag::Bag bag(file, rosbag::bagmode::Write);
+    bag.write("/costmap", ros::Time(1), occupancyToMessage(first_, "map", ros::Time(1)));
+    bag.write("/map", ros::Time(2), occupancyToMessage(second_, "map", ros::Time(2)));
+  }
+  EXPECT_EQ(errorOf(file),
+            "a.bag: has no nav_msgs/OccupancyGrid on 'projected_map', but on costmap, map: name "
+            "one, with --topic, or bag_topic of map_publisher");
+  MapFileOptions options;
+  options.bag_topic = "map";
+  EXPECT_EQ(readAnyMapFile(file, options), second_);
+  EXPECT_TRUE(contains(errorText([&] { readAnyMapFile(folder_.write("a.map", "type"), options); }),
+                       "a.map: is no bag, and has no topic 'map'"));
+}
+
 TEST_F(MapBag, ATopicThatIsNotThereIsToldWithThoseThatAre) {
-  EXPECT_EQ(errorOf(write("/map", {first_})),
-            "a.bag: has no nav_msgs/OccupancyGrid on 'projected_map', but on /map");
   EXPECT_EQ(errorOf(write("/map", {first_}), "chatter"),
-            "a.bag: has no nav_msgs/OccupancyGrid on 'chatter', but on /map");
+            "a.bag: has no nav_msgs/OccupancyGrid on 'chatter', but on map");
   EXPECT_EQ(errorOf(write("/map", {})),
             "a.bag: has no nav_msgs/OccupancyGrid on 'projected_map' nor on any other topic");
 }
