@@ -18,6 +18,14 @@ namespace {
 constexpr std::size_t kMostBeams = 20000;
 constexpr float kFarthest = 1e4F;  // m
 
+float farthestOf(const sensor_msgs::LaserScan& scan) {
+  return std::min(scan.range_max, kFarthest);
+}
+
+bool isHit(float measured, const sensor_msgs::LaserScan& scan) {
+  return measured > 0.0F && measured >= scan.range_min && measured < farthestOf(scan);
+}
+
 Eigen::Isometry3d isometryOf(const geometry_msgs::Transform& transform) {
   const auto& t = transform.translation;
   const auto& q = transform.rotation;
@@ -29,7 +37,8 @@ Eigen::Isometry3d isometryOf(const geometry_msgs::Transform& transform) {
 void checkScan(const sensor_msgs::LaserScan& scan) {
   if (!std::isfinite(scan.angle_min) || !std::isfinite(scan.angle_increment))
     throw InputError("its angles are not finite");
-  if (!(scan.range_min >= 0.0F && scan.range_min < scan.range_max && scan.range_max <= kFarthest))
+  if (!(scan.range_min >= 0.0F && scan.range_min < farthestOf(scan) &&
+        (scan.range_max <= kFarthest || std::isinf(scan.range_max))))
     throw InputError("range_min and range_max must rise from 0 to 1e4 m, got " +
                      std::to_string(scan.range_min) + " and " + std::to_string(scan.range_max));
   if (scan.ranges.empty()) throw InputError("it has no ranges");
@@ -57,10 +66,10 @@ ScanInMap scanInMap(const sensor_msgs::LaserScan& message,
   scan.origin = pose.translation().head<2>();
   for (std::size_t i = 0; i < message.ranges.size(); ++i) {
     const float measured = message.ranges[i];
-    const bool hit = measured >= message.range_min && measured <= message.range_max;
+    const bool hit = isHit(measured, message);
     const bool free = inf_clears && std::isinf(measured) && measured > 0.0F;
     if (!hit && !free) continue;
-    const double range = hit ? measured : message.range_max;
+    const double range = hit ? measured : farthestOf(message);
     const double angle = message.angle_min + static_cast<double>(i) * message.angle_increment;
     const Eigen::Vector3d end =
         pose * Eigen::Vector3d(range * std::cos(angle), range * std::sin(angle), 0.0);

@@ -11,14 +11,16 @@
 namespace grid_path_planner::nodes {
 
 // Throws InputError for a scan that cannot be meant: numbers that are not finite, ranges that do not lie between 0 and
-// range_max, a ray for each of more than 20,000 angles, or none, or as many intensities.
+// range_max, a ray for each of more than 20,000 angles, or none, or as many intensities. range_max may be +inf, as of
+// pointcloud_to_laserscan where nobody set it.
 void checkScan(const sensor_msgs::LaserScan& scan);
 
 // Throws InputError for a transform that is not finite or leads farther than 1e6 m.
 void checkScanPose(const geometry_msgs::TransformStamped& map_from_scan);
 
-// The rays of those that measured: a hit for a range from range_min to range_max, a free ray for +inf where
-// `inf_clears`. The others (NaN, -inf, other numbers; sensor_msgs and REP 117) say nothing. Each is put down into
+// The rays of those that measured: a hit for a range above 0, from range_min on and below range_max; a free ray for +inf
+// where `inf_clears`. The others say nothing: NaN, -inf, what is below range_min (sensor_msgs and REP 117), and the ways in
+// which drivers and simulators say that nothing came back: range_max, more than that, 0. Each is put down into
 // the map's plane. Preconditions: checkScan() and checkScanPose() take them; `map_from_scan` is of its
 // stamp.
 layers::ScanInMap scanInMap(const sensor_msgs::LaserScan& scan,

@@ -49,6 +49,39 @@ TEST(ScanInMap, WhatMeasuredNothingSaysNothing) {
   EXPECT_TRUE(scanInMap(silent, poseOfLaser(), true).beams.empty());
 }
 
+// Gazebo's laser has range_max where nothing came back, others one metre more, infinity, NaN or 0: a ring of obstacles.
+TEST(ScanInMap, NoReturnIsNoHitHoweverItIsSaid) {
+  for (const float range_min : {0.0F, 0.1F})
+    for (const float no_return : {4.0F, 5.0F, kInf, std::nanf(""), 0.0F}) {
+      sensor_msgs::LaserScan scan = scanOf(std::vector<float>(181, no_return));
+      scan.angle_min = static_cast<float>(-M_PI / 2.0);
+      scan.angle_increment = static_cast<float>(M_PI / 180.0);
+      scan.range_min = range_min;
+      scan.range_max = 4.0F;
+      scan.ranges[135] = 3.0F;  // at 45 degrees
+      geometry_msgs::TransformStamped pose;
+      pose.transform.rotation.w = 1.0;
+      checkScan(scan);
+      const ScanInMap in_map = scanInMap(scan, pose, false);
+      ASSERT_EQ(in_map.beams.size(), 1U) << no_return;
+      EXPECT_TRUE(in_map.beams[0].hit);
+      EXPECT_LT((in_map.beams[0].end - 3.0 * std::sqrt(0.5) * Eigen::Vector2d(1.0, 1.0)).norm(),
+                1e-5);
+    }
+}
+
+// pointcloud_to_laserscan's range_max is infinite unless it is set: every scan was refused.
+TEST(ScanInMap, ALaserMayReachAnywhere) {
+  sensor_msgs::LaserScan scan = scanOf({4.0F, kInf, 2e4F});
+  scan.range_max = kInf;
+  checkScan(scan);
+  const ScanInMap in_map = scanInMap(scan, poseOfLaser(), true);
+  ASSERT_EQ(in_map.beams.size(), 2U);
+  EXPECT_TRUE(in_map.beams[0].hit);
+  EXPECT_FALSE(in_map.beams[1].hit);
+  EXPECT_EQ(in_map.beams[1].range, 1e4);
+}
+
 TEST(ScanInMap, InfinityIsFreeWhereItIsAskedFor) {
   EXPECT_TRUE(scanInMap(scanOf({kInf}), poseOfLaser(), false).beams.empty());
   const ScanInMap scan = scanInMap(scanOf({kInf}), poseOfLaser(), true);
@@ -75,7 +108,7 @@ TEST(Scans, ThatCannotBeMeantAreRefused) {
   EXPECT_EQ(refusal([](auto&) {}), "");
   EXPECT_TRUE(contains(refusal([](auto& s) { s.angle_min = kInf; }), "angles"));
   EXPECT_TRUE(contains(refusal([](auto& s) { s.angle_increment = std::nanf(""); }), "angles"));
-  EXPECT_TRUE(contains(refusal([](auto& s) { s.range_max = kInf; }), "range_max"));
+  EXPECT_TRUE(contains(refusal([](auto& s) { s.range_max = 1.1e4F; }), "range_max"));
   EXPECT_TRUE(contains(refusal([](auto& s) { s.range_min = 20.0F; }), "range_max"));
   EXPECT_TRUE(contains(refusal([](auto& s) { s.ranges.clear(); }), "no ranges"));
   EXPECT_TRUE(contains(refusal([](auto& s) { s.ranges.resize(20001); }), "20001 ranges"));
