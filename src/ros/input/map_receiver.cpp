@@ -316,7 +316,8 @@ void MapReceiver::noteUpdate(const UpdateEvent& event) {
     return;
   }
   // A map from the future is from before the time jumped back, as when a bag loops.
-  const bool newer_map = message.header.stamp < before.stamp && before.stamp <= ros::Time::now();
+  const bool newer_map = !message.header.stamp.isZero() && message.header.stamp < before.stamp &&
+                         before.stamp <= ros::Time::now();
   if (newer_map) {
     static LogThrottle seldom(5.0);
     ROS_WARN_STREAM_COND(seldom.isDue(), "An update of the map stamped "
@@ -347,10 +348,10 @@ MapChange MapReceiver::apply(const UpdateEvent& event) {
   if (!frame_id.empty() && frame_id != before.frame_id)
     throw InputError("an update in frame " + frame_id + " for a map in frame " + before.frame_id);
   const CellRect changed = checkedRect(*before.grid, message);
+  const ros::Time& stamp = message.header.stamp.isZero() ? before.stamp : message.header.stamp;
   grids_.advance({changed}, [&](OccupancyGrid& next) { applyUpdate(message, changed, next); });
-  return store(
-      {nullptr, before.frame_id, message.header.stamp, before.publisher, event.getPublisherName()},
-      std::vector<CellRect>{changed});
+  return store({nullptr, before.frame_id, stamp, before.publisher, event.getPublisherName()},
+               std::vector<CellRect>{changed});
 }
 
 MapChange MapReceiver::store(ReceivedMap map, std::optional<std::vector<CellRect>> changed) {

@@ -6,8 +6,9 @@
 //
 // An invalid message is refused with an error that says why, and the map before it stays; so is a
 // piece outside the map. A piece older than the map is dropped: it is part of the map already
-// (unless the map is stamped later than now: then ROS time has jumped back). Maps handed out never
-// change; a piece makes a new one in time proportional to the piece (grid/double_buffered.h).
+// (unless the map is stamped later than now: then ROS time has jumped back). One that is stamped 0,
+// as costmap_2d's are, counts in the order in which it comes. Maps handed out never change; a piece
+// makes a new one in time proportional to the piece (grid/double_buffered.h).
 //
 // A piece without cells (0x0) is a heartbeat: it changes nothing and is accepted before there is a
 // map; only its stamp, who sent it and when it came are kept.

@@ -38,8 +38,9 @@ void apply(const map_msgs::OccupancyGridUpdate& update, nav_msgs::OccupancyGrid&
 void RecentUpdates::keep(const std::string& publisher, const Update& update,
                          const ros::Time& now) noexcept {
   try {
-    if (secondsBetween(now, update->header.stamp) > kMostAhead || !isValid(*update)) return;
-    forgetLaterThan(publisher, update->header.stamp);
+    const ros::Time& stamp = update->header.stamp;
+    if (stamp.isZero() || secondsBetween(now, stamp) > kMostAhead || !isValid(*update)) return;
+    forgetLaterThan(publisher, stamp);
     kept_.push_back({publisher, update, now});
     bytes_ += update->data.size();
   } catch (...) {  // no memory

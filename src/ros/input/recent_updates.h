@@ -20,7 +20,7 @@ class RecentUpdates {
   using Update = map_msgs::OccupancyGridUpdate::ConstPtr;
 
   // `publisher`: the node. The oldest are forgotten beyond 16 MB and 1,000 updates; one with values, or the name of a frame, that no
-  // map has, or stamped more than kMostAhead after `now`, which would be newer than every map to come, is not kept.
+  // map has, stamped 0, or more than kMostAhead after `now`, which would be newer than every map to come, is not kept.
   void keep(const std::string& publisher, const Update& update, const ros::Time& now) noexcept;
   // Those of `publisher` that are stamped later than `stamp` and no later than `until`, in the order in which they came; none
   // that came after `now`, which was before ROS time went back, or where `stamp` is 0, of no time.

@@ -101,6 +101,15 @@ TEST(RecentUpdates, AreNotCompleteForAMapThatIsOlderThanOneThatWasTaken) {
   EXPECT_TRUE(recent.complete(ros::Time(1.0))) << "ROS time went back";
 }
 
+// It would be older than all that is kept of its publisher, as where that clock was set back.
+TEST(RecentUpdates, OneOfNoTimeIsNotKeptAndForgetsNoOther) {
+  RecentUpdates recent;
+  recent.keep("/a", updateAt(1.0, 1, 100), kNow);
+  recent.keep("/a", updateAt(0.0, 2, 100), kNow);
+  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(0.5), kNow)), std::vector<int>({1}));
+  EXPECT_TRUE(recent.complete(ros::Time(0.5)));
+}
+
 // From a map of a time that has not come, every later one of any publisher counted as lacking updates.
 TEST(RecentUpdates, AreCompleteAfterAMapFromTheFuture) {
   RecentUpdates recent;

@@ -218,6 +218,29 @@ TEST_F(MapReceiverTest, AnUpdateThatIsLostSoonAfterAnotherIsAskedForAgain) {
   EXPECT_TRUE(comes([&] { return links_ > 2; })) << "though no update has come since";
 }
 
+// costmap_2d stamps the map and not what changes in it: each change was dropped as older than the map, and the planner went
+// on with the first one for ever.
+TEST_F(MapReceiverTest, AnUpdateWithoutAStampCountsInTheOrderInWhichItComes) {
+  const auto unstamped = [](int column, std::int8_t value) {
+    auto update = cellAt(column, value, 0.0);
+    update.header.stamp = ros::Time();
+    return update;
+  };
+  const auto before = firstMap(5.0);
+  send(unstamped(0, 100));
+  ASSERT_TRUE(isTaken());
+  EXPECT_EQ(values(), mapAt(0.0, {"#...#"}, 0.0).data);
+  EXPECT_EQ(receiver_.latest().stamp, before.header.stamp) << "of the newest message that has one";
+  send(cellAt(1, 100, 1.0));
+  send(unstamped(2, 100));
+  ASSERT_TRUE(isTaken());
+  EXPECT_EQ(values(), mapAt(0.0, {"###.#"}, 0.0).data);
+  maps_.publish(mapAt(0.0, {"...##"}, 2.0));
+  EXPECT_TRUE(comes([&] { return values() == mapAt(0.0, {".#.##"}, 0.0).data; }))
+      << "with what is stamped later, and without what came before it";
+  EXPECT_EQ(receiver_.lost(), "");
+}
+
 // A map that was refused had all updates forgotten that a good one was to be taken with.
 TEST_F(MapReceiverTest, AMapThatIsRefusedTakesNothingWithIt) {
   firstMap(5.0);
