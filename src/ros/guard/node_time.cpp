@@ -44,8 +44,8 @@ class Jumps {
   // Those so far, and to where the last went.
   Moment notice() {
     while (ros::Time::isValid()) {
-      const std::uint64_t latest =
-          latest_;  // before the clock is read: else another thread's is later, and before
+      // Before the clock is read: else another thread's is later, and before.
+      const std::uint64_t latest = latest_;
       const std::uint64_t now = microseconds(ros::Time::now());
       const Moment before = Moment::of(latest);
       if (now < before.time) note(before, now);
@@ -65,7 +65,7 @@ class Jumps {
 
  private:
   void note(const Moment& before, std::uint64_t now) {
-    const unsigned next = Moment{before.jumps + 1, 0}.jumps % 4096;
+    const unsigned next = (before.jumps + 1) % 4096;
     for (const auto& [word, time] : {std::pair(&from_, before.time), std::pair(&to_, now)}) {
       std::uint64_t held = *word;
       if (Moment::of(held).jumps == before.jumps)
@@ -123,13 +123,13 @@ std::optional<std::string> NodeTime::problemWith(const ros::Time& stamp) const {
 
 std::shared_ptr<void> NodeTime::onJumpBack(Listener listener) {
   const auto added = std::make_shared<const Listener>(std::move(listener));
-  const std::lock_guard<std::recursive_mutex> lock(mutex_);
-  const std::uint64_t number = next_listener_++;
-  std::shared_ptr<void> listening(nullptr, [this, number](void*) {
-    const std::lock_guard<std::recursive_mutex> lock(mutex_);
-    listeners_.erase(number);
+  const std::lock_guard<std::recursive_mutex> lock(listeners_->mutex);
+  const std::uint64_t number = listeners_->next++;
+  std::shared_ptr<void> listening(nullptr, [listeners = listeners_, number](void*) {
+    const std::lock_guard<std::recursive_mutex> lock(listeners->mutex);
+    listeners->by_number.erase(number);
   });
-  listeners_[number] = added;
+  listeners_->by_number[number] = added;
   return listening;
 }
 
@@ -137,7 +137,7 @@ void NodeTime::tellJumps() {
   if (std::uint64_t none = 0; since_ == none && ros::Time::isValid())
     since_.compare_exchange_strong(none, microseconds(ros::Time::now()));
   if (jumps_of_process.notice().jumps == told_) return;
-  const std::lock_guard<std::recursive_mutex> lock(mutex_);
+  const std::lock_guard<std::recursive_mutex> lock(listeners_->mutex);
   const Moment last = jumps_of_process.notice();
   if (last.jumps == jumps_) return;
   since_ = last.time;
@@ -149,14 +149,15 @@ void NodeTime::tellJumps() {
 
 // By number: a listener may add others, and end its own listening.
 void NodeTime::tell(double seconds) const {
-  for (auto next = listeners_.begin(); next != listeners_.end();) {
+  const auto& listeners = listeners_->by_number;
+  for (auto next = listeners.begin(); next != listeners.end();) {
     const auto [number, listener] = *next;
     try {
       (*listener)(seconds);
     } catch (...) {
       tellGivenUp("What is done where ROS time went back");
     }
-    next = listeners_.upper_bound(number);
+    next = listeners.upper_bound(number);
   }
 }
 

@@ -79,9 +79,12 @@ class NodeTime {
   std::atomic<bool> went_back_{false};
   std::atomic<std::int64_t> next_wait_{0};  // ns of the steady clock
 
-  std::recursive_mutex mutex_;  // of those below, and held while listeners are told
-  std::map<std::uint64_t, std::shared_ptr<const Listener>> listeners_;
-  std::uint64_t next_listener_ = 0;
+  struct Listeners {
+    std::recursive_mutex mutex;  // held while they are told
+    std::map<std::uint64_t, std::shared_ptr<const Listener>> by_number;
+    std::uint64_t next = 0;
+  };
+  const std::shared_ptr<Listeners> listeners_ = std::make_shared<Listeners>();
 };
 
 }  // namespace grid_path_planner::nodes

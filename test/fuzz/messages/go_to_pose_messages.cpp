@@ -2,6 +2,7 @@
 #include <move_base_msgs/MoveBaseGoal.h>
 
 #include <cmath>
+#include <utility>
 
 #include "fuzz/fuzz_target.h"
 #include "fuzz/messages/fuzz_messages.h"
@@ -165,13 +166,14 @@ std::vector<std::string> seedsOfStamps() {
 FUZZ_TARGET(goal_stamps, seedsOfStamps) {
   Messages messages(input);
   nodes::ActionStamps stamps;
-  ros::Time newest;
+  ros::Time newest, before;
   for (int i = 0; i < kMostHeard && !messages.atEnd(); ++i) {
     const auto clock = messages.next<std_msgs::Header>();
     const bool is_cancel = messages.byte() % 2 == 1;
     const auto id = messages.next<actionlib_msgs::GoalID>();
     if (!clock || !id) return;
     const ros::Time now(clock->stamp.sec, clock->stamp.nsec % 1000000000);
+    if (now < std::exchange(before, now)) stamps.timeWentBack();  // as NodeTime tells it
     const ros::Time given =
         is_cancel ? stamps.ofCancel(id->stamp, now) : stamps.ofGoal(id->stamp, now);
     const bool is_overtaken = !is_cancel && given == ros::TIME_MIN;  // by a cancel

@@ -71,7 +71,8 @@ TEST(ActionStamps, AGoalThatItsCancelOvertookIsCancelledAndAnotherIsNot) {
   EXPECT_LE(stamps.ofGoal(ros::Time(9.9), ros::Time(10.1)), cancel);
   EXPECT_GT(stamps.ofGoal(ros::Time(10.0), ros::Time(10.0)), cancel) << "given at once after it";
   EXPECT_GT(stamps.ofGoal({}, ros::Time(10.0)), cancel);
-  EXPECT_GT(stamps.ofGoal(ros::Time(2.0), ros::Time(2.0)), cancel) << "time went back";
+  stamps.timeWentBack();
+  EXPECT_GT(stamps.ofGoal(ros::Time(2.0), ros::Time(2.0)), cancel);
 }
 
 }  // namespace

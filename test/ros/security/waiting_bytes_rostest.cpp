@@ -20,7 +20,7 @@ constexpr std::size_t kMostOfThem = kMostWaitingBytes / kLarge;
 
 class WaitingBytes : public testing::Test {
  protected:
-  WaitingBytes() { busy_.setCallbackQueue(&queue_); }
+  WaitingBytes() { busy_.setCallbackQueue(&guarded_); }
   // A second subscriber, which is told of each message after the first one has it.
   template <class Message>
   ros::Subscriber count(const std::string& topic) {
@@ -33,6 +33,7 @@ class WaitingBytes : public testing::Test {
 
   ros::NodeHandle nh_, busy_;
   ros::CallbackQueue queue_;  // of a thread that has other work
+  GuardedQueue guarded_{queue_};
   std::atomic<std::size_t> arrived_{0};
 };
 

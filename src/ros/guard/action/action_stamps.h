@@ -26,7 +26,6 @@ class ActionStamps {
   ros::Time ofGoal(ros::Time given, ros::Time now) {
     given = normalized(given);
     now = normalized(now);
-    noticeTime(now);
     if (!given.isZero() && given < cancelled_until_) return ros::TIME_MIN;
     const ros::Time stamp = next(now);
     goals_.push_back({given.isZero() || given > now ? now : given, stamp});
@@ -38,7 +37,6 @@ class ActionStamps {
   ros::Time ofCancel(ros::Time given, ros::Time now) {
     given = normalized(given);
     now = normalized(now);
-    noticeTime(now);
     if (given.isZero()) return given;
     if (given > now) return next(now);
     cancelled_until_ = std::max(cancelled_until_, given);
@@ -47,6 +45,11 @@ class ActionStamps {
       if (goal.given <= given) stamp = std::max(stamp, goal.stamp);
     last_ = std::max(last_, stamp);
     return stamp;
+  }
+  // Senders' stamps from before are of no order with those from after.
+  void timeWentBack() {
+    goals_.clear();
+    cancelled_until_ = {};
   }
 
  private:
@@ -60,16 +63,8 @@ class ActionStamps {
     last_ = std::max(now, last_ == ros::TIME_MAX ? last_ : last_ + ros::Duration(0, 1));
     return last_;
   }
-  // Senders' stamps from before time went back are of no order with those from after.
-  void noticeTime(const ros::Time& now) {
-    if (now < now_) {
-      goals_.clear();
-      cancelled_until_ = {};
-    }
-    now_ = now;
-  }
 
-  ros::Time last_, now_;
+  ros::Time last_;
   ros::Time cancelled_until_;  // by senders' stamps
   std::deque<Goal> goals_;
 };

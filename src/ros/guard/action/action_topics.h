@@ -23,6 +23,7 @@
 
 #include "ros/guard/action/action_stamps.h"
 #include "ros/guard/incoming/bounded_subscription.h"
+#include "ros/guard/node_time.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
@@ -83,11 +84,13 @@ void openActionTopics(actionlib::ActionServerBase<Action>& server, ros::NodeHand
       node.advertise<typename Action::_action_feedback_type>("feedback", kActionQueueSize);
   topics.status = node.advertise<actionlib_msgs::GoalStatusArray>("status", kActionQueueSize, true);
   const auto stamps = std::make_shared<ActionStamps>();
+  const auto on_jump_back =
+      NodeTime::of(node).onJumpBack([stamps](double) { stamps->timeWentBack(); });
   using GoalPtr = boost::shared_ptr<const Goal>;
   const auto bound_ends = [&statuses = topics.statuses, &lock = topics.lock] {
     boundEnds(statuses, lock);
   };
-  const auto on_goal = [&server, stamps, bound_ends,
+  const auto on_goal = [&server, stamps, on_jump_back, bound_ends,
                         &results = topics.results](const GoalPtr& message) {
     bound_ends();
     if (lastTimeOfActions() < ros::Time::now())
