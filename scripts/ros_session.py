@@ -15,7 +15,7 @@ import sys
 import time
 
 PACKAGE = "grid_path_planner"
-START_SECONDS = 60.0  # of the wall clock, for all nodes to be there
+START_SECONDS = 120.0  # of the wall clock, for all nodes to be there: only what hangs takes so long
 
 
 class SessionFailed(Exception):

@@ -8,7 +8,7 @@ import struct
 from ros_session import SessionFailed
 
 from .other_sessions import COMMANDED
-from .session import BEGIN, BACK_SECONDS, patience, process_id
+from .session import BEGIN, BACK_SECONDS, process_id
 
 JUMPS = (0.1, -2.0, 3600.0, -3600.0, 2e9, -1.9e9, -100.0)  # s
 LEAST_BACK = 1.0  # s: of a shorter way back the node may see nothing, since the simulator takes a while to start
@@ -61,16 +61,16 @@ def jump(demo, seconds):
     rospy.set_param("/simulator/start_time", to)
     demo.vehicle.stamp = None
     demo.nodes.wait_until(lambda: process_id("/simulator") not in (None, pid) and demo.vehicle.stamp,
-                          patience(BACK_SECONDS), "simulator")
+                          BACK_SECONDS, "simulator")
     with Heartbeats() as heartbeats:
         demo.drive.goes_on()
-        demo.nodes.wait_until(lambda: map_goes_on(demo, heartbeats, to), patience(BACK_SECONDS),
+        demo.nodes.wait_until(lambda: map_goes_on(demo, heartbeats, to), BACK_SECONDS,
                               "map of the time after a jump of %g s" % seconds)
     stamp = demo.drive.path.header.stamp.to_sec()
     if not is_new(demo, stamp, to):
         raise SessionFailed("after a jump of %g s to %.1f s a path is stamped %.1f" % (seconds, to, stamp))
     if to < before - LEAST_BACK:
-        demo.nodes.wait_until(lambda: times_said(demo) > said, patience(BACK_SECONDS),
+        demo.nodes.wait_until(lambda: times_said(demo) > said, BACK_SECONDS,
                               "word that time went back by %g s" % -seconds)
 
 

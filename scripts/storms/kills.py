@@ -17,7 +17,7 @@ from ros_session import SessionFailed, share_file
 
 from .other_sessions import Flight, Localization, Manual, Site
 from .seen_map import SeenMap
-from .session import BACK_SECONDS, Demo, patience, process_id
+from .session import BACK_SECONDS, Demo, process_id
 
 SIMULATOR_EVERY = 5     # rounds, where others are killed, too: it takes the vehicle back to where it began
 CMD_VEL_TIMEOUT = 0.5   # s; of the simulator
@@ -39,7 +39,7 @@ class Kills:
 
     def kill(self, node):
         """Kills it and returns what was occupied before."""
-        self.nodes.wait_until(lambda: process_id(node), patience(BACK_SECONDS), node)
+        self.nodes.wait_until(lambda: process_id(node), BACK_SECONDS, node)
         self.vehicle.check_untouched()
         squares = self.map.occupied_before()
         pid = process_id(node)
@@ -54,7 +54,7 @@ class Kills:
 
     def ask_without_a_map(self, squares):
         """A plan before the first map of the node that comes back, where the planner is there to make one."""
-        planner, deadline = process_id("/path_planner"), time.monotonic() + patience(BACK_SECONDS)
+        planner, deadline = process_id("/path_planner"), time.monotonic() + BACK_SECONDS
         path = self.drive.ask_once(lambda: self.map.expected is None or planner is None or time.monotonic() > deadline)
         if path is not None:
             self.asked_without += 1
@@ -79,14 +79,14 @@ class Kills:
 
     def is_told_to_stand(self):
         """By a go_to_pose that is back: it cancels what it had begun."""
-        self.nodes.wait_until(lambda: self.vehicle.speed() < STANDS, patience(BACK_SECONDS / 6), "stop of the drive of before")
+        self.nodes.wait_until(lambda: self.vehicle.speed() < STANDS, BACK_SECONDS, "stop of the drive of before")
 
     def stands_where_it_began(self):
         """What was driven before time went back is not driven any more. Not where others are killed, too: a goal has come meanwhile."""
         if len(self.counts) > 1:
             return
         self.vehicle.stamp, began = None, self.drive.ends[0]
-        self.nodes.wait_until(lambda: self.vehicle.now() > 3.0, patience(BACK_SECONDS), "/clock")
+        self.nodes.wait_until(lambda: self.vehicle.now() > 3.0, BACK_SECONDS, "/clock")
         if self.vehicle.distance(began) > 0.1:
             raise SessionFailed("%.2f m from where it began without a new goal" % self.vehicle.distance(began))
 
@@ -97,10 +97,10 @@ class Kills:
         """Sent before it until a pose comes by its markers."""
         self.drive.end = 0
         self.drive.publish_goal()
-        self.nodes.wait_until(lambda: self.session.fixes > 0, patience(BACK_SECONDS), "pose by markers")
+        self.nodes.wait_until(lambda: self.session.fixes > 0, BACK_SECONDS, "pose by markers")
 
     def knows_where_it_is(self):
-        self.nodes.wait_until(lambda: self.session.estimate.status.startswith("OK"), patience(BACK_SECONDS),
+        self.nodes.wait_until(lambda: self.session.estimate.status.startswith("OK"), BACK_SECONDS,
                               "localization_status OK")
         self.session.estimate.check()
 
@@ -124,8 +124,8 @@ class Kills:
             time.sleep(self.random.uniform(0.0, 0.7))
             killed.append(self.kill(node))
         for _, node, pid in killed:
-            self.nodes.wait_until(lambda: process_id(node) not in (None, pid), patience(BACK_SECONDS), node)
-        self.nodes.wait_until(lambda: self.map.expected is None, patience(BACK_SECONDS), "map")
+            self.nodes.wait_until(lambda: process_id(node) not in (None, pid), BACK_SECONDS, node)
+        self.nodes.wait_until(lambda: self.map.expected is None, BACK_SECONDS, "map")
         for node in order:
             KILLED[node].back(self)
         if not any(KILLED[node].forgets for node in order):
@@ -139,7 +139,7 @@ class Kills:
 
     def run(self, rounds):
         self.drive.goes_on()
-        self.nodes.wait_until(lambda: len(self.map.occupied_before()) > self.session.FIRST_CELLS, patience(BACK_SECONDS),
+        self.nodes.wait_until(lambda: len(self.map.occupied_before()) > self.session.FIRST_CELLS, BACK_SECONDS,
                               "obstacles")
         for number in range(rounds):
             for group in self.groups(number):

@@ -13,7 +13,7 @@ from ros_session import SessionFailed
 
 from .kills import CMD_VEL_TIMEOUT, STANDS
 from .other_sessions import COMMANDED
-from .session import BACK_SECONDS, patience, process_id
+from .session import BACK_SECONDS, process_id
 from .wire import Wire
 
 CUT_SECONDS, LATE_SECONDS, LOSS = 30.0, 2.0, 0.2
@@ -25,7 +25,7 @@ def stands(demo, simulated_seconds):
     """Whether the vehicle stands so many of its seconds from now at the latest."""
     begin = demo.vehicle.now()
     demo.nodes.wait_until(lambda: demo.vehicle.speed() < STANDS or demo.vehicle.now() > begin + simulated_seconds,
-                          patience(60.0), "time")
+                          BACK_SECONDS, "time")
     return demo.vehicle.speed() < STANDS
 
 
@@ -51,7 +51,9 @@ def be_cut(demo, wire):
 
 def be_late(demo, wire):
     wire.delay = LATE_SECONDS
-    watch(demo, LATE_SECONDS + patience(demo.BRAKING + SURE_SECONDS))  # commands of before are late, too
+    watch(demo, LATE_SECONDS + demo.BRAKING + SURE_SECONDS)  # commands of before are late, too
+    if demo.KNOWS_AGES:
+        demo.nodes.wait_until(lambda: demo.vehicle.speed() < STANDS, BACK_SECONDS, "stop while the link is late")
     most = watch(demo, TROUBLE_SECONDS)
     wire.delay = 0.0
     if demo.KNOWS_AGES and most > STANDS:

@@ -23,7 +23,7 @@ from ros_session import START_SECONDS, SessionFailed, executable, share_file
 
 from .loads import AGAIN, ANSWERED, COUNTED, GOAL_RATE, HEIGHT, LOADS, LONGEST_ANSWER, MAP_RATES, SEEN, plan
 from .other_sessions import Flight, Manual, hold
-from .session import Demo, Master, NotRun, patience, process_id, resident_mb
+from .session import Demo, Master, NotRun, process_id, resident_mb
 from .silence import Silence, quantile
 
 MOST_MB = 2500.0
@@ -143,7 +143,7 @@ def drive_a_line(nodes):
 
 
 def wait(nodes, done, what):
-    deadline = time.monotonic() + patience(START_SECONDS)
+    deadline = time.monotonic() + START_SECONDS
     while not done():
         nodes.check()
         if time.monotonic() > deadline:

@@ -9,13 +9,12 @@ import time
 from ros_session import SessionFailed
 
 from .other_sessions import COMMANDED
-from .session import BACK_SECONDS, patience
+from .session import BACK_SECONDS
 from .silence import Silence
 
 SHORT = 4.0             # s without a master
 LONG = 10.0             # the same, longer than a session's MASTER_TIMEOUT
 MOVING = 0.05           # m/s and rad/s
-REGISTERED_SECONDS = 5.0
 
 
 def registered(demo):
@@ -37,7 +36,7 @@ def lose(demo, seconds):
     speed = demo.vehicle.speed()
     demo.master.__enter__()
     back = time.monotonic()
-    demo.nodes.wait_until(lambda: before <= registered(demo), patience(REGISTERED_SECONDS), "all names")
+    demo.nodes.wait_until(lambda: before <= registered(demo), BACK_SECONDS, "all names")
     return time.monotonic() - back, speed
 
 
@@ -58,6 +57,6 @@ def storm(rounds, folder, given, name):
             slowest = max(slowest, seconds)
             if (speed > MOVING) == bool(timeout):
                 raise SessionFailed("%.0f s without a master the vehicle moves at %.2f" % (LONG, speed))
-            demo.nodes.wait_until(lambda: demo.vehicle.speed() > MOVING, patience(BACK_SECONDS), "motion")
+            demo.nodes.wait_until(lambda: demo.vehicle.speed() > MOVING, BACK_SECONDS, "motion")
         text = silence.verdict()
     return "%d times lost and back; all names there within %.1f s; %s" % (2 * rounds, slowest, text)
