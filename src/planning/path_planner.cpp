@@ -9,6 +9,7 @@
 #include "grid_path_planner/base/options.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/planners/planner_factory.h"
+#include "grid/foreign_values.h"
 #include "path/footprint/footprint.h"
 #include "planning/footprint/fitted_plan.h"
 #include "planning/map_store.h"
@@ -294,6 +295,9 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     const CostmapPair asked_for = costmaps(token);
     CostmapPair maps = asked_for;
     makeRoom(maps);
+    if (!threshold_fit_) threshold_fit_ = std::make_unique<grid::ThresholdFit>();
+    const std::string& misfit =
+        threshold_fit_->problem(map_, options_.costmap.thresholds, token);
     Lowered* lowered = loweredFor(*maps.full_resolution, request);
     if ((lowered || footprint_) && bytes() > memoryLimit() / 2) searches_->releaseOptionalMemory();
     if (lowered) maps = loweredCosts(*lowered, token);
@@ -314,6 +318,7 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     if (lowered && plan.found())
       addNote(plan.message,
               loweredNote(costmap_->keptDistances(), lowered->costmap->keptDistances()));
+    addNote(plan.message, misfit);
     plan.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();
     return plan;
   });

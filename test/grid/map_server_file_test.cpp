@@ -182,6 +182,22 @@ TEST_F(MapServerFile, AYawThatIsNotANumberIsZeroAndTold) {
     EXPECT_TRUE(contains(errorText([&] { withYaw(yaw); }), "a number of radians")) << yaw;
 }
 
+// As cartographer's: its floor and its walls are both greys.
+TEST_F(MapServerFile, GreysBetweenTheThresholdsAreTold) {
+  EXPECT_EQ(valuesOf("", pgmLine({158, 110, 128})), (Values{-1, -1, -1}));
+  EXPECT_EQ(warnings_,
+            (std::vector<std::string>{folder_.path("a.pgm") +
+                                      ": no pixel is free or occupied by free_thresh 0.196 and "
+                                      "occupied_thresh 0.65: its greys count as unknown"}));
+  warnings_.clear();
+  EXPECT_EQ(valuesOf("free_thresh: 0.4\noccupied_thresh: 0.5\n", pgmLine({158, 110, 128})),
+            (Values{0, 100, -1}));
+  valuesOf("", pgmLine({254, 205, 205}));  // nothing occupied has been seen yet
+  valuesOf("", pgmLine({205, 205}));
+  valuesOf("mode: scale\n", pgmLine({158, 110, 128}));
+  EXPECT_TRUE(warnings_.empty()) << warnings_[0];
+}
+
 TEST_F(MapServerFile, ABitmapIsAnImageToo) {
   const OccupancyGrid map = readMapFile(folder_.write("a.pbm", "P1\n3 1\n1 0 1\n"));
   EXPECT_EQ(map.values(), (Values{100, 0, 100}));

@@ -76,6 +76,22 @@ TEST(PathPlanner, SaysWhyThereIsNoPath) {
   EXPECT_EQ(PathPlanner().plan({}).status, Status::NO_MAP);
 }
 
+// Of cartographer: a wall of 57 % is unknown, and the path through it was found without a word.
+TEST(PathPlanner, SaysWhereTheThresholdsDoNotFitTheMap) {
+  const OccupancyGrid map(GridGeometry(3, 1, 1.0), {38, 57, 38});
+  const Plan through = planBetween(map, poseAt({0.5, 0.5}), poseAt({2.5, 0.5}));
+  EXPECT_EQ(through.status, Status::FOUND);
+  EXPECT_TRUE(says(through,
+                   "no cell of the map is free (at most free_max, 25) or occupied (at "
+                   "least occupied_min, 65)"))
+      << through.message;
+  PlannerOptions options;
+  options.costmap.thresholds = {45, 50};
+  const Plan none = planBetween(map, poseAt({0.5, 0.5}), poseAt({2.5, 0.5}), options);
+  EXPECT_EQ(none.status, Status::UNREACHABLE);
+  EXPECT_FALSE(says(none, "occupied_min")) << none.message;
+}
+
 TEST(PathPlanner, NamesTheEndThatIsWrong) {
   const OccupancyGrid map = AsciiMap({"..#",  //
                                       "?.."})

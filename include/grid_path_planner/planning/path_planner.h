@@ -41,6 +41,10 @@ namespace grid_path_planner::path {
 class Footprint;
 }
 
+namespace grid_path_planner::grid {
+class ThresholdFit;
+}
+
 namespace grid_path_planner::planning {
 
 class MapSeries;
@@ -223,7 +227,8 @@ class PathPlanner {
   // options(), with the radius that is searched for: no less than the footprint's inscribed one.
   const PlannerOptions& searchedOptions() const { return searched_; }
 
-  // Every failure but a bug is a status; options().timeout runs beside the token's own limit.
+  // Every failure but a bug is a status; options().timeout runs beside the token's own limit. Where the thresholds do not
+  // fit the map, the message says so.
   Plan plan(const PoseRequest& request, const base::StopSource& stop = {});
 
  private:
@@ -263,6 +268,7 @@ class PathPlanner {
   bool costmap_is_old_ = false;             // of others, since the change to these failed
   std::uint64_t at_least_ = std::numeric_limits<std::uint64_t>::max();  // as takeMap() was told
   costmap::CostChanges downsampled_changes_;
+  std::unique_ptr<grid::ThresholdFit> threshold_fit_;  // null before the first plan
   std::unique_ptr<PreparedPlanners> searches_;  // of these costmaps
   std::unique_ptr<Lowered> lowered_;            // for the last request, if it needed one
 };

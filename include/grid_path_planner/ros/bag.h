@@ -14,7 +14,7 @@ namespace grid_path_planner::nodes {
 // The first nav_msgs/OccupancyGrid with cells on `topic`, a leading slash here or in the bag ignored; where that is empty, on
 // projected_map, or on the only topic that has any. Throws InputError naming the file where there is no such bag, it is cut
 // short, it has no such map (then naming the topics that have one), the message is no valid map, or `limits` do not allow
-// for it. `warn`, where given, is told of the only topic, and of an origin without an orientation.
+// for it. `warn`, where given, is told of the only topic, an origin without an orientation, and a map that is inflated.
 grid::OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic = "",
                                    const base::ReadLimits& limits = {},
                                    const std::function<void(const std::string&)>& warn = {});

@@ -90,11 +90,10 @@ class PixelTable {
   std::vector<std::int8_t> transparent_;
 };
 
-std::int8_t occupancyOfPixel(const std::uint8_t* pixel, int averaged, bool has_alpha,
-                             const PixelTable& table) {
+int sumOf(const std::uint8_t* pixel, int averaged) {
   int sum = 0;
   for (int channel = 0; channel < averaged; ++channel) sum += pixel[channel];
-  return table(sum, has_alpha && pixel[kAlphaChannel] == 0);
+  return sum;
 }
 
 void warnAboutColour(const std::string& file, int channels, int averaged,
@@ -193,9 +192,7 @@ OccupancyGrid byOtsu(const GreyImage& image, const Sampling& sampling,
   cv::Mat grey(sampling.rows(), sampling.columns(), CV_8UC1);
   for (int row = 0; row < sampling.rows(); ++row)
     for (int column = 0; column < sampling.columns(); ++column) {
-      const std::uint8_t* pixel = sampling.line(row) + sampling.offset(column);
-      int sum = 0;
-      for (int channel = 0; channel < image.averaged; ++channel) sum += pixel[channel];
+      const int sum = sumOf(sampling.line(row) + sampling.offset(column), image.averaged);
       grey.at<std::uint8_t>(row, column) = static_cast<std::uint8_t>(sum / image.averaged);
     }
   cv::threshold(grey, grey, 0.0, 100.0, cv::THRESH_BINARY_INV | cv::THRESH_OTSU);
@@ -205,17 +202,43 @@ OccupancyGrid byOtsu(const GreyImage& image, const Sampling& sampling,
   return map;
 }
 
-OccupancyGrid byRule(const GreyImage& image, const Sampling& sampling, const PixelRule& rule,
-                     const GridGeometry& geometry) {
+// Of a picture with several greys between the thresholds, and no class on one side of these. A single grey is unknown, as
+// map_server writes it.
+void warnAboutThresholds(const std::string& file, const OccupancyGrid& map,
+                         const std::vector<bool>& sums, const PixelTable& table,
+                         const PixelRule& rule, const MapFileOptions& options) {
+  std::size_t greys = 0;
+  for (std::size_t sum = 0; sum < sums.size(); ++sum)
+    greys += sums[sum] && table(static_cast<int>(sum), false) < 0 ? 1 : 0;
+  const auto has = [&](std::int8_t value) {
+    return std::find(map.values().begin(), map.values().end(), value) != map.values().end();
+  };
+  if (rule.mode != MapMode::TRINARY || greys < 2 || (has(0) && has(100))) return;
+  const char* const none = has(100) ? "free" : has(0) ? "occupied" : "free or occupied";
+  warnAbout(file,
+            std::string("no pixel is ") + none + " by free_thresh " +
+                decimalText(rule.free_thresh) + " and occupied_thresh " +
+                decimalText(rule.occupied_thresh) + ": its greys count as unknown",
+            options);
+}
+
+OccupancyGrid byRule(const GreyImage& image, const std::string& file, const Sampling& sampling,
+                     const PixelRule& rule, const GridGeometry& geometry,
+                     const MapFileOptions& options) {
   OccupancyGrid map(geometry);
   const PixelTable table(rule, image.averaged);
+  std::vector<bool> sums(static_cast<std::size_t>(255 * image.averaged) + 1);
   for (int row = 0; row < map.height(); ++row) {
     const std::uint8_t* line = sampling.line(row);
     std::int8_t* values = map.row(row);
-    for (int column = 0; column < map.width(); ++column)
-      values[column] =
-          occupancyOfPixel(line + sampling.offset(column), image.averaged, image.has_alpha, table);
+    for (int column = 0; column < map.width(); ++column) {
+      const std::uint8_t* pixel = line + sampling.offset(column);
+      const int sum = sumOf(pixel, image.averaged);
+      sums[static_cast<std::size_t>(sum)] = true;
+      values[column] = table(sum, image.has_alpha && pixel[kAlphaChannel] == 0);
+    }
   }
+  warnAboutThresholds(file, map, sums, table, rule, options);
   return map;
 }
 
@@ -229,7 +252,7 @@ OccupancyGrid readImageFile(const std::string& file, const PixelRule& rule, doub
       mapGeometry(file, sampling.columns(), sampling.rows(), resolution, origin, options);
   options.limits.take(file, geometry.size());
   options.limits.goOn(file);
-  return byRule(image, sampling, rule, geometry);
+  return byRule(image, file, sampling, rule, geometry, options);
 }
 
 OccupancyGrid readPlainImage(const std::string& file, MapFileOptions& options) {
@@ -253,7 +276,8 @@ OccupancyGrid readPlainImage(const std::string& file, MapFileOptions& options) {
       mapGeometry(file, sampling.columns(), sampling.rows(), 1.0, {}, options);
   options.limits.take(file, (wanted.otsu ? 2 : 1) * geometry.size());
   options.limits.goOn(file);
-  return wanted.otsu ? byOtsu(image, sampling, geometry) : byRule(image, sampling, {}, geometry);
+  return wanted.otsu ? byOtsu(image, sampling, geometry)
+                     : byRule(image, file, sampling, {}, geometry, options);
 }
 
 std::string pgmOfMap(const OccupancyGrid& map, MapMode mode,

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "ros/driving/map_life.h"
+#include "ros/input/foreign_rules.h"
 #include "ros/input/map_receiver.h"
 
 namespace grid_path_planner::nodes {
@@ -26,6 +27,10 @@ class MapWatch {
   ~MapWatch();
 
   MapLife life() const;
+  // As MapFit::problem() of the newest map. Of one thread.
+  std::string misfit(const grid::OccupancyThresholds& thresholds) {
+    return map_fit_.problem(life().map.grid, thresholds);
+  }
 
  private:
   void onMap();
@@ -39,6 +44,7 @@ class MapWatch {
   const Listener listener_;
   std::mutex telling_;  // so that no older life is told after a newer one
   MapReceiver receiver_;
+  MapFit map_fit_;
 
   mutable std::mutex mutex_;
   MapLife life_;

@@ -23,10 +23,14 @@ void NavigatePathNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
 void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const MapLife life = map_->life();
   const std::string why = whyNoMap(life, options_.map_timeout);
+  const std::string misfit =
+      options_.check_map ? map_->misfit(options_.limits.thresholds) : std::string();
   if (!options_.check_map)
     status.summary(DiagnosticStatus::OK, "not watched: check_map is false");
   else if (!why.empty())
     status.summary(DiagnosticStatus::WARN, why);
+  else if (!misfit.empty())
+    status.summary(DiagnosticStatus::WARN, misfit);
   else
     status.summary(DiagnosticStatus::OK, "the map on " + life.topic + " is kept up");
   status.add("speed limits", limits_->state());

@@ -33,7 +33,18 @@ bool isNotYet(const MapEvent& event) {
 }
 
 void tellTraits(const MapEvent& event) {
-  if (hasNoOrientation(event.getConstMessage()->info)) warnOnce(event, base::kYawAssumed);
+  const nav_msgs::OccupancyGrid& map = *event.getConstMessage();
+  if (hasNoOrientation(map.info)) warnOnce(event, base::kYawAssumed);
+  if (grid::isInflated(map.data, map.info.width)) warnOnce(event, grid::kInflated);
+}
+
+std::string MapFit::problem(const std::shared_ptr<const grid::OccupancyGrid>& map,
+                            const grid::OccupancyThresholds& thresholds) {
+  if (!map) return "";
+  const std::string& problem = fit_.problem(map, thresholds);
+  if (!problem.empty() && problem != told_) ROS_WARN_STREAM(problem);
+  told_ = problem;
+  return problem;
 }
 
 }  // namespace grid_path_planner::nodes

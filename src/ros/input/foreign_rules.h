@@ -12,9 +12,13 @@
 #include <ros/message_event.h>
 
 #include <cstddef>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
+
+#include "grid/foreign_values.h"
+#include "grid_path_planner/grid/occupancy.h"
 
 namespace grid_path_planner::nodes {
 
@@ -45,7 +49,20 @@ void warnOnce(const ros::MessageEvent<const Message>& event, const std::string& 
 
 // Whether the map that came has no cells, as octomap_server's before it has seen anything: the one before stays. Warns of it.
 bool isNotYet(const MapEvent& event);
-// Warns of what a map that is taken has of such things: an origin without an orientation, as octomap_server's.
+// Warns of what a map that is taken has of such things: an origin without an orientation, as octomap_server's; the inflation of
+// costmap_2d.
 void tellTraits(const MapEvent& event);
+
+// Says where the thresholds of occupancy do not fit the maps that come (grid/foreign_values.h). Of one thread.
+class MapFit {
+ public:
+  // Why they do not, logged where that is another sentence than before; empty where they do, or there is no map.
+  std::string problem(const std::shared_ptr<const grid::OccupancyGrid>& map,
+                      const grid::OccupancyThresholds& thresholds);
+
+ private:
+  grid::ThresholdFit fit_;
+  std::string told_;
+};
 
 }  // namespace grid_path_planner::nodes

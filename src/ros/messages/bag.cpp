@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "grid/foreign_values.h"
 #include "grid_path_planner/base/files.h"
 #include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/grid/map_file.h"
@@ -125,6 +126,8 @@ OccupancyGrid readMapFromBag(const std::string& file, const std::string& topic,
       const auto message = messageFromBytes<nav_msgs::OccupancyGrid>(bytes);
       OccupancyGrid map = occupancyFromMessage(message);
       if (warn && hasNoOrientation(message.info)) warn(file + ": " + base::kYawAssumed);
+      if (warn && grid::isInflated(map.values(), message.info.width))
+        warn(file + ": " + grid::kInflated);
       return map;
     } catch (const InputError& error) {
       throw InputError(file, "the first map on '" + name + "': " + error.what());

@@ -28,6 +28,10 @@ void PlanDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& sta
     status.summary(DiagnosticStatus::WARN, "no map has come yet");
   else
     status.summary(DiagnosticStatus::OK, "a map is there");
+  const grid::OccupancyThresholds thresholds =
+      server_.settings().options.planner.costmap.thresholds;
+  if (const std::string problem = map_fit_.problem(map.grid, thresholds); !problem.empty())
+    status.summary(DiagnosticStatus::WARN, problem);
   if (const std::string lost = server_.maps().lost(); !lost.empty())
     status.summary(DiagnosticStatus::WARN, lost);
   if (!refusal.empty())

@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 #include <ros/steady_timer.h>
 
+#include "ros/input/foreign_rules.h"
 #include "ros/planning/planning_server.h"
 
 namespace grid_path_planner::nodes {
@@ -19,6 +20,7 @@ class PlanDiagnostics {
   void reportPlan(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   PlanningServer& server_;
+  MapFit map_fit_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;
 };

@@ -58,6 +58,34 @@ TEST(ForeignRules, AMapWithoutCellsIsNoneYetAndToldOnce) {
                                      "none yet, and the map before it stays"});
 }
 
+// move_base's costmap as the planner's map: what is 99 there was inflated once more without a word.
+TEST(ForeignRules, AnInflatedMapIsToldOnce) {
+  const Log log;
+  auto map = boost::make_shared<nav_msgs::OccupancyGrid>(*mapOf("", 1.0).getConstMessage());
+  map->info.width = 5;
+  map->data = {50, 99, 100, 99, 50};
+  auto header = boost::make_shared<ros::M_string>();
+  (*header)["callerid"] = "/move_base";
+  (*header)["topic"] = "/costmap";
+  for (int i = 0; i < 3; ++i) tellTraits({map, header, ros::Time(1)});
+  ASSERT_EQ(log.lines.size(), 1u);
+  EXPECT_EQ(log.lines[0].find("/costmap of /move_base: it is inflated, as costmap_2d's maps are"),
+            0u);
+}
+
+TEST(MapFit, TellsOnceWhereTheThresholdsDoNotFit) {
+  const Log log;
+  const auto grid = std::make_shared<grid::OccupancyGrid>(grid::GridGeometry(2, 1, 1.0),
+                                                          std::vector<std::int8_t>{38, 57});
+  MapFit fit;
+  EXPECT_EQ(fit.problem(nullptr, {}), "");
+  for (int i = 0; i < 3; ++i) EXPECT_NE(fit.problem(grid, {}), "");
+  EXPECT_EQ(log.lines.size(), 1u);
+  EXPECT_EQ(fit.problem(grid, {45, 50}), "");
+  EXPECT_NE(fit.problem(grid, {}), "");
+  EXPECT_EQ(log.lines.size(), 2u);
+}
+
 TEST(ForeignRules, NamesOfStrangersAreNotLogged) {
   const Log log;
   tellTraits(mapOf("$(reboot)\x1b[2J", 0.0));

@@ -216,6 +216,16 @@ TEST_F(MapBag, MapsWithoutCellsArePassedOver) {
   EXPECT_TRUE(contains(errorOf(file), "at least one cell, got 0x0"));
 }
 
+TEST_F(MapBag, AnInflatedMapIsTold) {
+  MapFileOptions options;
+  std::vector<std::string> warnings;
+  options.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+  const OccupancyGrid costmap(GridGeometry(5, 1, 1.0), {50, 99, 100, 99, 50});
+  EXPECT_EQ(readAnyMapFile(write("projected_map", {costmap}), options), costmap);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(contains(warnings[0], "a.bag: it is inflated, as costmap_2d's maps are"));
+}
+
 // 60 MB in some kB.
 TEST_F(MapBag, AChunkThatUnpacksToMoreThanTheLimitIsRefused) {
   const OccupancyGrid large(GridGeometry(8000, 8000, 0.05));
