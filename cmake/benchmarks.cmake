@@ -5,7 +5,7 @@
 function(gpp_run_benchmark name)
   add_test(NAME ${PROJECT_NAME}_benchmark_${name} COMMAND ${PROJECT_NAME}_${name} ${ARGN}
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-  set_tests_properties(${PROJECT_NAME}_benchmark_${name} PROPERTIES LABELS benchmark TIMEOUT 120)
+  set_tests_properties(${PROJECT_NAME}_benchmark_${name} PROPERTIES LABELS benchmark)
 endfunction()
 
 if(CATKIN_ENABLE_TESTING AND GPP_WITH_study AND GPP_WITH_mapping AND GPP_WITH_simulation)

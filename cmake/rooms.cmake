@@ -117,16 +117,33 @@ function(gpp_set_computing)
   endforeach()
 endfunction()
 
-# gpp_add_room_test(<room> [<libraries>] [PRECOMPILED owner]): all *_test.cpp below test/<room> as one gtest program,
-# eight of them compiled as one. Its precompiled headers are those of test_support, or the owner's.
+# gpp_add_shards(<target> <number>): so many tests of ctest, each of which runs its share of a gtest program's.
+function(gpp_add_shards target number)
+  foreach(shard RANGE 1 ${number})
+    math(EXPR index "${shard} - 1")
+    set(name _ctest_${PROJECT_NAME}_gtest_${target}_${shard}_of_${number})  # as catkin names the others
+    add_test(NAME ${name} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT
+      "GTEST_TOTAL_SHARDS=${number};GTEST_SHARD_INDEX=${index};GTEST_OUTPUT=xml:${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/${name}.xml")
+    gpp_set_computing(${name})
+  endforeach()
+endfunction()
+
+# gpp_add_room_test(<room> [<libraries>] [PRECOMPILED owner] [SHARDS number]): all *_test.cpp below test/<room> as one gtest
+# program, sixteen of them compiled as one. Its precompiled headers are those of test_support, or the owner's. Where its tests
+# take more than a minute of CPU, so many tests of ctest run a share of them each.
 function(gpp_add_room_test room)
-  cmake_parse_arguments(ARG "" "PRECOMPILED" "" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED;SHARDS" "" ${ARGN})
   if(NOT ARG_PRECOMPILED)
     set(ARG_PRECOMPILED ${PROJECT_NAME}_test_support)
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${room}/*_test.cpp)
   set(target ${PROJECT_NAME}_${room}_test)
-  catkin_add_gtest(${target} ${sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  if(ARG_SHARDS)
+    catkin_add_executable_with_gtest(${target} ${sources} EXCLUDE_FROM_ALL)
+  else()
+    catkin_add_gtest(${target} ${sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  endif()
   if(TARGET ${target})
     foreach(library ${ARG_UNPARSED_ARGUMENTS})
       target_link_libraries(${target} ${PROJECT_NAME}_${library})
@@ -134,6 +151,11 @@ function(gpp_add_room_test room)
     target_link_libraries(${target} ${PROJECT_NAME}_test_support gtest gtest_main)
     gpp_precompile_headers(${target} ${ARG_PRECOMPILED})
     gpp_unite_sources(${target} 16)
-    gpp_set_computing(_ctest_${PROJECT_NAME}_gtest_${target})
+    if(ARG_SHARDS)
+      add_dependencies(tests ${target})
+      gpp_add_shards(${target} ${ARG_SHARDS})
+    else()
+      gpp_set_computing(_ctest_${PROJECT_NAME}_gtest_${target})
+    endif()
   endif()
 endfunction()
