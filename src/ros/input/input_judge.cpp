@@ -25,7 +25,7 @@ constexpr char kTooMany[] = "too many waiting for tf";
 constexpr char kTooSlow[] = "faster than they are used";
 constexpr char kTooLarge[] = "too many bytes waiting";
 
-std::string seconds(double value) {
+std::string secondsText(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f s", value);
   return text;
@@ -94,10 +94,11 @@ std::optional<InputJudge::Refusal> InputJudge::judged(const InputHeader& header,
   if (header.stamp.isZero()) return Refusal{"no stamp", "it has no stamp"};
   const double ahead = secondsBetween(now.time, header.stamp);
   if (ahead > rules_.most_ahead)
-    return Refusal{kAhead, "it is stamped " + seconds(ahead) + " ahead of ROS time, more than " +
+    return Refusal{kAhead, "it is stamped " + secondsText(ahead) +
+                               " ahead of ROS time, more than " +
                                base::decimalText(rules_.most_ahead) + " s" + clocksText(ahead)};
   if (-ahead > rules_.oldest)
-    return Refusal{"too old", "it is " + seconds(-ahead) + " old, more than " +
+    return Refusal{"too old", "it is " + secondsText(-ahead) + " old, more than " +
                                   base::decimalText(rules_.oldest) + " s" + clocksText(-ahead)};
   return judgedByOrder(header);
 }
@@ -173,7 +174,7 @@ bool InputJudge::placed(Waiting& waiting, const Place& place, const Moment& now)
   Refusal late{kNoTransform, ""};
   const double ahead = secondsBetween(now.time, item.header.stamp);
   if (rules_.order == InputRules::Order::RISING && ahead > 0.0)
-    late = {kAhead, "it is stamped " + seconds(ahead) + " ahead of ROS time"};
+    late = {kAhead, "it is stamped " + secondsText(ahead) + " ahead of ROS time"};
   else if (findPoses(item, rules_.frames, place, late.sentence))
     return makeReady(item, now), true;
   trouble_ = late.sentence;
@@ -188,7 +189,9 @@ void InputJudge::dropTooMany(const Moment& now) {
                                (trouble_.empty() ? "" : ": " + trouble_)},
                 now);
   while (ready_.size() > rules_.most_waiting)
-    dropReady({kTooSlow, "they come faster than they are used"}, now);
+    dropReady(
+        {rules_.most_waiting == 1 ? kOvertaken : kTooSlow, "they come faster than they are used"},
+        now);
   while (waiting_.size() + ready_.size() > 1 && bytes() > rules_.most_bytes) {
     const Refusal why{kTooLarge, "those that wait hold more than " +
                                      std::to_string(rules_.most_bytes / kMebibyte) + " MiB"};
@@ -279,7 +282,7 @@ std::string InputJudge::refused(const Refusal& why, const InputHeader* header, c
   return why.sentence;
 }
 
-void InputJudge::clear(const std::string& why, const Moment& now) {
+void InputJudge::clear(const std::string& why) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (const std::size_t waiting = waiting_.size() + ready_.size(); waiting > 0)
     counts_.refused[why] += waiting;
@@ -287,6 +290,11 @@ void InputJudge::clear(const std::string& why, const Moment& now) {
   ready_.clear();
   newest_.clear();
   trouble_.clear();
+}
+
+void InputJudge::beginAnew(const std::string& why, const Moment& now) {
+  clear(why);
+  const std::lock_guard<std::mutex> lock(mutex_);
   used_stamp_.reset();
   used_at_ = heard_at_ = now.wall;
 }
@@ -322,9 +330,9 @@ double InputJudge::silence(const Moment& now) const {
   return secondsSince(heard_at_, now);
 }
 
-double InputJudge::age(const Moment& now) const {
+ros::Time InputJudge::newest() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return used_stamp_ ? secondsBetween(*used_stamp_, now.time) : kNever;
+  return used_stamp_.value_or(ros::Time());
 }
 
 InputCounts InputJudge::counts() const {

@@ -83,15 +83,17 @@ class InputJudge {
 
   // A message that came and is refused for what else is wrong with it.
   void refuse(const std::string& reason, const std::string& sentence, const Moment& now);
-  // Forgets those that wait, and stamps; silence counts from now on.
-  void clear(const std::string& why, const Moment& now);
+  // Forgets those that wait, and stamps.
+  void clear(const std::string& why);
+  // Forgets what was used, too: as at the start.
+  void beginAnew(const std::string& why, const Moment& now);
 
   // Why it gives nothing now, in a sentence: silent, or refused, or without tf. None: all is well.
   std::optional<std::string> problem(const Moment& now) const;
-  // s of the wall clock in which nothing came at all, used or not; from the start or clear() on.
+  // s of the wall clock in which nothing came at all, used or not; from the start or beginAnew() on.
   double silence(const Moment& now) const;
-  // s since the stamp of the newest that was used, at most ROS time; infinite where none was.
-  double age(const Moment& now) const;
+  // The stamp of the newest that was used, at most ROS time then; 0 where none was.
+  ros::Time newest() const;
   InputCounts counts() const;
 
  private:

@@ -134,7 +134,7 @@ std::vector<InputRow> measurementRows() {
             "Somebody sets it by hand, rviz or ~set_pose: silence says nothing, no stamp is now")};
 }
 
-std::string seconds(double value) {
+std::string limitText(double value) {
   return std::isinf(value) ? "any" : base::decimalText(value) + " s";
 }
 
@@ -154,12 +154,12 @@ std::string tfText(const InputRules& rules) {
   if (rules.frames.empty()) return "not waited for";
   std::string text;
   for (const std::string& frame : rules.frames) text += (text.empty() ? "" : ", ") + frame;
-  return text + ", " + seconds(rules.tf_wait);
+  return text + ", " + limitText(rules.tf_wait);
 }
 
 std::string silenceText(const InputRules& rules) {
   if (std::isinf(rules.silent_after)) return "never";
-  return seconds(rules.silent_after) +
+  return limitText(rules.silent_after) +
          (rules.silence == Silence::BY_STAMP ? " by stamp" : " by arrival");
 }
 
@@ -173,8 +173,8 @@ std::string rowText(const InputRow& row) {
   for (const std::string& cell :
        {codes(row.node), codes(row.topic),
         std::string(r.stamp == Stamp::REQUIRED ? "required" : "0 is now"),
-        std::string(r.frame_required ? "required" : "may be empty"), seconds(r.most_ahead),
-        seconds(r.oldest), orderText(r.order), tfText(r),
+        std::string(r.frame_required ? "required" : "may be empty"), limitText(r.most_ahead),
+        limitText(r.oldest), orderText(r.order), tfText(r),
         std::to_string(r.most_waiting) + ", " + std::to_string(r.most_bytes / kMebibyte) + " MiB",
         silenceText(r), row.parameters, row.reason})
     text += (cell.empty() ? "" : " " + cell) + " |";

@@ -141,7 +141,7 @@ class RowTest {
       judge_.add({ros::Time(stamp), case_.has_frame ? "sensor" : "", 100}, nullptr, now_);
       judge_.place(tfThat(true), now_);
       useAll();
-      if (!reference_.beforeUsed() || judge_.waits()) judge_.clear("test", now_);
+      if (!reference_.beforeUsed() || judge_.waits()) judge_.beginAnew("test", now_);
       used_before_ = judge_.counts().used;
     }
     refused_before_ = judge_.counts().refused;
@@ -326,11 +326,15 @@ class Sequence {
       judge_.countUsed(*item, now());
   }
   void clear() {
-    judge_.clear("asked for", now());
+    const bool anew = one(2) == 0;
+    anew ? judge_.beginAnew("asked for", now()) : judge_.clear("asked for");
     alive_.clear();
     last_.clear();
     EXPECT_EQ(judge_.counts().waiting, 0U);
-    EXPECT_EQ(judge_.problem(now()).has_value(), !std::isinf(rules_.silent_after));
+    if (anew) {
+      EXPECT_EQ(judge_.problem(now()).has_value(), !std::isinf(rules_.silent_after));
+      EXPECT_EQ(judge_.silence(now()), 0.0);
+    }
   }
   void check() {
     const InputCounts counts = judge_.counts();
