@@ -24,7 +24,8 @@ constexpr double kSamePosition = 1e-6;            // m
 po::options_description waypointsOptions() {
   po::options_description known("Options");
   const char* formats =
-      "planner, uuv (UUV simulator), pose_array (rostopic echo), csv or geojson; default: as the "
+      "planner, uuv (UUV simulator), pose_array (rostopic echo of it or of a path), csv or "
+      "geojson; default: as the "
       "file's name and, in YAML, its first keys say";
   known.add_options()("input", po::value<std::string>()->required(), "the file that is read")(
       "output", po::value<std::string>()->required(), "the file that is written")(

@@ -54,6 +54,19 @@ std::size_t lastBeforeEnd(const Path& path) {
   return i > 0 ? i - 1 : 0;
 }
 
+double offsetOf(HeadingMode mode) {
+  switch (mode) {
+    case HeadingMode::BACKWARD:
+      return M_PI;
+    case HeadingMode::LEFTWARD:
+      return -M_PI / 2;
+    case HeadingMode::RIGHTWARD:
+      return M_PI / 2;
+    default:
+      return 0.0;
+  }
+}
+
 void faceAlongPath(Path& path, double goal_yaw, double offset) {
   const std::vector<double> directions = directionsOf(path, goal_yaw - offset);
   for (std::size_t i = 0; i < path.poses.size(); ++i)
@@ -99,9 +112,6 @@ void applyHeadings(Path& path, double start_yaw, double goal_yaw, HeadingMode mo
     case HeadingMode::NONE:
       for (Pose& pose : path.poses) pose.yaw = 0.0;
       break;
-    case HeadingMode::FORWARD:
-      faceAlongPath(path, goal_yaw, 0.0);
-      break;
     case HeadingMode::INTERPOLATE:
       turnByLength(path, start_yaw, goal_yaw);
       break;
@@ -109,17 +119,32 @@ void applyHeadings(Path& path, double start_yaw, double goal_yaw, HeadingMode mo
       faceAlongPath(path, goal_yaw, 0.0);
       turnOverTheLastStretch(path, goal_yaw);
       break;
+    case HeadingMode::FORWARD:
     case HeadingMode::BACKWARD:
-      faceAlongPath(path, goal_yaw, M_PI);
-      break;
     case HeadingMode::LEFTWARD:
-      faceAlongPath(path, goal_yaw, -M_PI / 2);
-      break;
     case HeadingMode::RIGHTWARD:
-      faceAlongPath(path, goal_yaw, M_PI / 2);
+      faceAlongPath(path, goal_yaw, offsetOf(mode));
       break;
   }
   path.poses.back().yaw = goal_yaw;
+}
+
+double arrivalYaw(const Path& path, double start_yaw, HeadingMode mode) {
+  if (mode == HeadingMode::NONE) return 0.0;
+  const std::size_t last = lastBeforeEnd(path);
+  if (mode == HeadingMode::INTERPOLATE || last + 1 == path.poses.size()) return start_yaw;
+  const Eigen::Vector2d segment = segmentOf(path, last);
+  if (segment.isZero(0.0)) return start_yaw;
+  return normalised(std::atan2(segment.y(), segment.x()) + offsetOf(mode));
+}
+
+void lookAlongPath(Path& path) {
+  const auto has_none = [](const Pose& pose) { return std::isnan(pose.yaw); };
+  if (std::none_of(path.poses.begin(), path.poses.end(), has_none)) return;
+  Path along = path;
+  applyHeadings(along, 0.0, arrivalYaw(path, 0.0, HeadingMode::FORWARD), HeadingMode::FORWARD);
+  for (std::size_t i = 0; i < path.poses.size(); ++i)
+    if (has_none(path.poses[i])) path.poses[i].yaw = along.poses[i].yaw;
 }
 
 const std::vector<std::pair<const char*, PathZ>>& choicesOf(PathZ) {

@@ -61,7 +61,7 @@ class Reader {
   const char* end_;
 };
 
-bool readPose(Reader& reader, Pose& pose) {
+bool readPose(Reader& reader, double largest, Pose& pose) {
   double x = 0.0, y = 0.0, z = 0.0, w = 0.0;
   const bool read =
       reader.skip("  - position: {x: ") && reader.number(pose.position.x()) &&
@@ -69,7 +69,7 @@ bool readPose(Reader& reader, Pose& pose) {
       reader.number(pose.position.z()) && reader.skip("}\n    orientation: {x: ") &&
       reader.number(x) && reader.skip(", y: ") && reader.number(y) && reader.skip(", z: ") &&
       reader.number(z) && reader.skip(", w: ") && reader.number(w) && reader.skip("}\n");
-  if (!read || pose.position.cwiseAbs().maxCoeff() > kLargestCoordinate) return false;
+  if (!read || pose.position.cwiseAbs().maxCoeff() > largest) return false;
   try {
     pose.yaw = base::yawOfLevelQuaternion(x, y, z, w);
   } catch (const base::InputError&) {
@@ -86,9 +86,10 @@ std::optional<Path> plainWaypoints(const std::string& text) {
   if (!reader.skip("header: {frame_id: ") || !reader.name(path.frame_id) ||
       !reader.skip("}\nwaypoints:\n"))
     return std::nullopt;
+  const double largest = largestCoordinateIn(path.frame_id);
   while (!reader.ended()) {
     path.poses.emplace_back();
-    if (!readPose(reader, path.poses.back())) return std::nullopt;
+    if (!readPose(reader, largest, path.poses.back())) return std::nullopt;
   }
   return path.empty() ? std::nullopt : std::make_optional(std::move(path));
 }

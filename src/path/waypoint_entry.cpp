@@ -25,20 +25,21 @@ class WaypointEntry {
 
   void appendTo(WaypointFile& waypoints) const {
     if (node_.IsMap()) checkKeys(node_, name_, {});
+    const double largest = largestCoordinateIn(waypoints.path.frame_id);
     if (node_.IsMap() && node_["x"] && !node_["position"])
-      waypoints.path.poses.push_back(shortForm());
+      waypoints.path.poses.push_back(shortForm(largest));
     else
       appendLongForm(waypoints);
   }
 
  private:
   // {x: 13.5, y: -13.5, yaw: 1.69}, with or without a z.
-  Pose shortForm() const {
+  Pose shortForm(double largest) const {
     checkKeys(node_, name_, {"x", "y", "z", "yaw"});
     Pose pose;
-    pose.position.x() = coordinate(node_, "x");
-    pose.position.y() = coordinate(node_, "y");
-    if (node_["z"]) pose.position.z() = coordinate(node_, "z");
+    pose.position.x() = coordinate(node_, "x", largest);
+    pose.position.y() = coordinate(node_, "y", largest);
+    if (node_["z"]) pose.position.z() = coordinate(node_, "z", largest);
     pose.yaw = std::remainder(number(node_, "yaw"), 2.0 * M_PI);
     return pose;
   }
@@ -50,7 +51,8 @@ class WaypointEntry {
     checkKeys(orientation, "the orientation of " + name_, {"x", "y", "z", "w"});
     Pose pose;
     for (int axis = 0; axis < 3; ++axis)
-      pose.position[axis] = coordinate(position, std::string(1, "xyz"[axis]));
+      pose.position[axis] = coordinate(position, std::string(1, "xyz"[axis]),
+                                       largestCoordinateIn(waypoints.path.frame_id));
     const YawAndTilt turned = yawAndTilt(orientation);
     pose.yaw = turned.yaw;
     waypoints.path.poses.push_back(pose);
@@ -94,9 +96,9 @@ class WaypointEntry {
     return yamlAs<double>(value, key + " of " + name_, file_, "a finite number");
   }
 
-  double coordinate(const YAML::Node& position, const std::string& key) const {
+  double coordinate(const YAML::Node& position, const std::string& key, double largest) const {
     if (!position[key]) throw yamlError(position, file_, name_ + " has no " + key);
-    return coordinateAt(position[key], key + " of " + name_, file_);
+    return coordinateAt(position[key], key + " of " + name_, file_, largest);
   }
 
   YawAndTilt yawAndTilt(const YAML::Node& orientation) const {
@@ -125,10 +127,20 @@ void appendWaypoint(const YAML::Node& node, std::size_t number, const std::strin
   WaypointEntry(node, number, file).appendTo(waypoints);
 }
 
-double coordinateAt(const YAML::Node& node, const std::string& name, const std::string& file) {
+double largestCoordinateIn(const std::string& frame_id) {
+  return frame_id == "map" ? kLargestCoordinate : kLargestElsewhere;
+}
+
+std::string withinText(double largest) {
+  return largest == kLargestCoordinate ? "within 1e6 m of 0" : "within 1e8 m of 0";
+}
+
+double coordinateAt(const YAML::Node& node, const std::string& name, const std::string& file,
+                    double largest) {
   const auto value = yamlAs<double>(node, name, file, "a finite number");
-  if (std::abs(value) <= kLargestCoordinate) return value;
-  throw yamlError(node, file, name + " must be within 1e6 m of 0, got " + describeYaml(node));
+  if (std::abs(value) <= largest) return value;
+  throw yamlError(node, file,
+                  name + " must be " + withinText(largest) + ", got " + describeYaml(node));
 }
 
 std::string yamlDecimal(double value, int decimals) {
@@ -163,12 +175,13 @@ void checkCanBeRead(const std::string& file, const Path& path) {
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const Pose& pose = path.poses[i];
     if (pose.position.allFinite() && std::isfinite(pose.yaw) &&
-        pose.position.cwiseAbs().maxCoeff() <= kLargestCoordinate)
+        pose.position.cwiseAbs().maxCoeff() <= largestCoordinateIn(withoutSlash(path.frame_id)))
       continue;
     std::ostringstream message;
     message << "is not written: waypoint " << i + 1 << " (" << pose.position.x() << ", "
             << pose.position.y() << ", " << pose.position.z() << ", yaw " << pose.yaw
-            << ") is not finite and within 1e6 m of 0";
+            << ") is not finite and "
+            << withinText(largestCoordinateIn(withoutSlash(path.frame_id)));
     throw InputError(file, message.str());
   }
 }

@@ -14,9 +14,12 @@ namespace grid_path_planner::path {
 void appendWaypoint(const YAML::Node& node, std::size_t number, const std::string& file,
                     WaypointFile& waypoints);
 
-// The finite coordinate of at most kLargestCoordinate at `node`, which errors call `name`. Throws
-// InputError with file and line.
-double coordinateAt(const YAML::Node& node, const std::string& name, const std::string& file);
+// The finite coordinate of at most `largest` at `node`, which errors call `name`. Throws InputError with file and line.
+double coordinateAt(const YAML::Node& node, const std::string& name, const std::string& file,
+                    double largest = kLargestCoordinate);
+
+// "within 1e6 m of 0"
+std::string withinText(double largest);
 
 // `value` with so many decimals, of which those that are 0 are left out but for the first: other readers
 // of YAML take 1e-05 for a string and 4 for an integer.

@@ -177,6 +177,29 @@ std::vector<double> heights(const std::vector<Eigen::Vector2d>& points, PathZ mo
   return z;
 }
 
+// A goal without a heading is arrived at without a turn.
+TEST(ArrivalYaw, IsThatOfTheLastPiece) {
+  const Path path = pathOfWrongYaws({{0, 0}, {1, 0}, {1, 3}, {1, 3}});
+  for (const auto& [mode, yaw] :
+       {std::pair(HeadingMode::FORWARD, M_PI / 2), std::pair(HeadingMode::BACKWARD, -M_PI / 2),
+        std::pair(HeadingMode::LEFTWARD, 0.0), std::pair(HeadingMode::RIGHTWARD, M_PI),
+        std::pair(HeadingMode::FORWARD_THEN_INTERPOLATE, M_PI / 2),
+        std::pair(HeadingMode::INTERPOLATE, 0.7), std::pair(HeadingMode::NONE, 0.0)}) {
+    EXPECT_LT(angleBetween(arrivalYaw(path, 0.7, mode), yaw), 1e-12);
+    Path turned = path;
+    applyHeadings(turned, 0.7, arrivalYaw(path, 0.7, mode), mode);
+    EXPECT_LT(angleBetween(turned.poses[1].yaw, turned.poses[2].yaw), 1e-12);
+  }
+  EXPECT_EQ(arrivalYaw(pathOfWrongYaws({{1, 1}}), 0.7, HeadingMode::FORWARD), 0.7);
+}
+
+TEST(LookAlongPath, GivesTheHeadingsThatAreMissing) {
+  Path path = pathOfWrongYaws({{0, 0}, {1, 0}, {1, 3}});
+  path.poses[0].yaw = path.poses[2].yaw = std::nan("");
+  lookAlongPath(path);
+  expectYaws(yawsOf(path), {0.0, 0.123, M_PI / 2});
+}
+
 TEST(PathHeight, Modes) {
   const std::vector<Eigen::Vector2d> points = {{0, 0}, {1, 0}, {1, 3}};
   EXPECT_EQ(heights(points, PathZ::INTERPOLATE), (std::vector<double>{1.0, 2.0, 5.0}));

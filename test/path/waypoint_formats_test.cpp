@@ -7,6 +7,7 @@
 #include <random>
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/path/waypoint_file.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 #include "support/text_variants.h"
@@ -162,6 +163,41 @@ TEST_F(WaypointFormats, WhatIsWrittenIsReadAgain) {
     }
 }
 
+// What users of move_base have: follow_waypoints saves pose.csv without names, others name the columns, and a path is
+// echoed. Two of the three were refused.
+TEST_F(WaypointFormats, ReadsWhatFollowWaypointsAndRostopicWrite) {
+  const std::string pose = "  - \n    header: \n      frame_id: \"map\"\n    pose: \n";
+  const std::pair<const char*, std::string> files[] = {
+      {"pose.csv", "1.0,2.0,0.0,0.0,0.0,0.0,1.0\n3.0,2.0,0.0,0.0,0.0,0.7071068,0.7071068\n"},
+      {"named.csv", "qw,qx,qy,qz,x,y\n1,0,0,0,1,2\n0.7071068,0,0,0.7071068,3,2\n"},
+      {"rpy.csv", "x,y,z,roll,pitch,yaw\n1.0,2.0,0.0,0.01,0.0,0.0\n3.0,2.0,0.0,0.0,0.0,1.570796\n"},
+      {"path.yaml", "header: \n  frame_id: \"map\"\nposes: \n" + pose +
+                        "      position: {x: 1.0, y: 2.0, z: 0.0}\n"
+                        "      orientation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}\n" +
+                        pose +
+                        "      position: {x: 3.0, y: 2.0, z: 0.0}\n"
+                        "      orientation: {x: 0.0, y: 0.0, z: 0.7071068, w: 0.7071068}\n---\n"}};
+  for (const auto& [name, content] : files) {
+    const Path path = read(name, content);
+    ASSERT_EQ(path.poses.size(), 2u) << name;
+    EXPECT_EQ(path.poses[0].position, Eigen::Vector3d(1.0, 2.0, 0.0)) << name;
+    EXPECT_EQ(path.poses[1].position, Eigen::Vector3d(3.0, 2.0, 0.0)) << name;
+    EXPECT_NEAR(path.poses[0].yaw, 0.0, 1e-6) << name;
+    EXPECT_NEAR(path.poses[1].yaw, M_PI / 2, 1e-6) << name;
+  }
+}
+
+// Coordinates of utm are millions of metres, until tf brings them into the map.
+TEST_F(WaypointFormats, AFrameThatIsNotTheMapsMayBeFarFromIt) {
+  const Path path = read("utm.csv", "# frame_id: utm\n500006.46061108634,4500006.1855076095\n");
+  EXPECT_EQ(path.poses[0].position.y(), 4500006.1855076095);
+  const std::string file = folder_.write("utm.yaml", "");
+  writeWaypoints(file, WaypointFormat::PLANNER, path, {});
+  EXPECT_NEAR(readWaypointFile(file).path.poses[0].position.y(), 4500006.1855076095, 1e-6);
+  EXPECT_TRUE(
+      contains(refusal("a.csv", "# frame_id: utm\n1,1e9\n"), "a.csv:2: y must be within 1e8"));
+}
+
 TEST_F(WaypointFormats, RefusalsNameTheLine) {
   const auto isRefused = [&](const std::string& name, const std::string& content,
                              const std::string& words) {
@@ -174,6 +210,11 @@ TEST_F(WaypointFormats, RefusalsNameTheLine) {
   isRefused("a.csv", "x,x\n", "a.csv:1: the columns are");
   isRefused("a.csv", "x,z\n", "a.csv:1: there must be columns x and y");
   isRefused("a.csv", "# nothing\n", "holds no waypoint");
+  isRefused("a.csv", "1,2,3,4,5\n", "a.csv:1: a waypoint is x,y or");
+  isRefused("a.csv", "1,2,0,0,0,0,0\n", "a.csv:1: orientation x 0 y 0 z 0 w 0 has length zero");
+  isRefused("a.csv", "x,y,qw\n", "a.csv:1: a quaternion has the columns");
+  isRefused("a.csv", "x,y,qx,qy,qz,qw,yaw\n", "a.csv:1: a waypoint has either");
+  isRefused("a.csv", "x,y,roll\n1,2,1\n", "a.csv:2: the orientation must tilt by at most 0.7");
   isRefused("u.yaml", "inertial_frame_id: world\nwaypoints:\n- point: [1, 2]\n",
             "u.yaml:3: the point of waypoint 1 must be a list [x, y, z]");
   isRefused("u.yaml", "inertial_frame_id: moon\nwaypoints: []\n", "u.yaml:1: ");

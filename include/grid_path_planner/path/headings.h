@@ -32,6 +32,13 @@ const std::vector<std::pair<const char*, HeadingMode>>& choicesOf(HeadingMode);
 // length, INTERPOLATE turns by equal steps a pose. Precondition: everything is finite.
 void applyHeadings(Path& path, double start_yaw, double goal_yaw, HeadingMode mode);
 
+// The heading with which a vehicle arrives that is not asked for one at the goal: that of the last segment with a length,
+// as the mode turns it; the start's with INTERPOLATE and where no segment has one, 0 with NONE. Precondition: not empty.
+double arrivalYaw(const Path& path, double start_yaw, HeadingMode mode);
+
+// Gives poses whose yaw is NaN the direction of the path there, at its end that of the last segment.
+void lookAlongPath(Path& path);
+
 // The z of the poses between the two ends.
 enum class PathZ { INTERPOLATE, START, GOAL, FIXED };
 const std::vector<std::pair<const char*, PathZ>>& choicesOf(PathZ);

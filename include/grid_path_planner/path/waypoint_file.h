@@ -25,8 +25,12 @@
 
 namespace grid_path_planner::path {
 
-// Largest coordinate that is taken for one, in metres.
+// Largest coordinate in a map that is taken for one, in metres.
 constexpr double kLargestCoordinate = 1e6;
+// The same in a frame that tf leads into the map, such as utm.
+constexpr double kLargestElsewhere = 1e8;
+// Of the two, that of files: frames other than "map" are asked again when they are in the map.
+double largestCoordinateIn(const std::string& frame_id);
 
 // Largest angle between the z axis of a waypoint and the vertical, in radians: beyond, where it looks
 // horizontally means little.
@@ -39,12 +43,12 @@ struct WaypointFile {
 
 // A leading slash of the frame is dropped. Throws InputError naming the file, the line and the
 // entry (from 1) for anything but at least one waypoint with finite coordinates up to
-// kLargestCoordinate and a quaternion that can be normalised and tilts by no more than
+// largestCoordinateIn(its frame) and a quaternion that can be normalised and tilts by no more than
 // kLargestWaypointTilt, and for a file that needs more than `limits`.
 WaypointFile readWaypointFile(const std::string& file, const base::ReadLimits& limits = {});
 
 // Throws InputError naming the file, and the waypoint where one could not be read back: none at
-// all, a coordinate beyond kLargestCoordinate or a number that is not finite. The old file stays
+// all, a coordinate beyond largestCoordinateIn(its frame) or a number that is not finite. The old file stays
 // whole where the new one cannot be written (see writeFileAtomically).
 void writeWaypointFile(const base::OutputFile& file, const Path& path);
 

@@ -8,7 +8,9 @@
 
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/base/option_text.h"
+#include "grid_path_planner/path/headings.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "path/waypoint_entry.h"
 #include "path/waypoint_formats/waypoint_texts.h"
@@ -19,7 +21,11 @@ using base::decimalText, base::InputError, base::numberFromText;
 
 namespace {
 
-constexpr std::array<const char*, 4> kColumns = {"x", "y", "z", "yaw"};
+// The first four, and all of the quaternion, may come without names.
+constexpr std::array<const char*, 10> kColumns = {"x",  "y",  "z",  "yaw",  "qx",
+                                                  "qy", "qz", "qw", "roll", "pitch"};
+enum Column : std::size_t { X, Y, Z, YAW, QX, QY, QZ, QW, ROLL, PITCH };
+using Row = std::array<double, kColumns.size()>;
 const std::string kFrameComment = "# frame_id:";
 
 std::string trimmed(const std::string& text) {
@@ -69,20 +75,27 @@ class CsvReading {
       const auto column = std::find(kColumns.begin(), kColumns.end(), name);
       const auto index = static_cast<std::size_t>(column - kColumns.begin());
       if (column == kColumns.end() || has(index))
-        throw InputError(
-            file_, line_,
-            "the columns are x, y, z and yaw, each once, got '" + name.substr(0, 80) + "'");
+        throw InputError(file_, line_,
+                         "the columns are x, y, z and yaw (with roll and pitch, or in their place "
+                         "qx, qy, qz and "
+                         "qw), each once, got '" +
+                             name.substr(0, 80) + "'");
       columns_.push_back(index);
     }
-    if (!has(0) || !has(1)) throw InputError(file_, line_, "there must be columns x and y");
+    if (!has(X) || !has(Y)) throw InputError(file_, line_, "there must be columns x and y");
+    const bool quaternion = has(QX) && has(QY) && has(QZ) && has(QW);
+    if (!quaternion && (has(QX) || has(QY) || has(QZ) || has(QW)))
+      throw InputError(file_, line_, "a quaternion has the columns qx, qy, qz and qw");
+    if (quaternion && (has(YAW) || has(ROLL) || has(PITCH)))
+      throw InputError(file_, line_, "a waypoint has either a quaternion or angles");
   }
 
   void takeCount(std::size_t count) {
-    if (count < 2 || count > kColumns.size())
-      throw InputError(
-          file_, line_,
-          "a waypoint is x,y or x,y,z or x,y,z,yaw, got " + std::to_string(count) + " values");
-    for (std::size_t i = 0; i < count; ++i) columns_.push_back(i);
+    if (count < 2 || (count > 4 && count != 7))
+      throw InputError(file_, line_,
+                       "a waypoint is x,y or x,y,z or x,y,z,yaw or x,y,z,qx,qy,qz,qw, got " +
+                           std::to_string(count) + " values");
+    for (std::size_t i = 0; i < count; ++i) columns_.push_back(count == 7 && i > Z ? i + 1 : i);
   }
 
   bool has(std::size_t column) const {
@@ -94,13 +107,28 @@ class CsvReading {
       throw InputError(file_, line_,
                        "expected " + std::to_string(columns_.size()) +
                            " values separated by commas, got " + std::to_string(parts.size()));
-    std::array<double, 4> values = {0.0, 0.0, 0.0, std::numeric_limits<double>::quiet_NaN()};
+    Row values{};
+    values[YAW] = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t i = 0; i < parts.size(); ++i)
       values[columns_[i]] = valueOf(parts[i], columns_[i]);
     Pose pose;
-    pose.position << values[0], values[1], values[2];
-    pose.yaw = std::remainder(values[3], 2.0 * M_PI);
+    pose.position << values[X], values[Y], values[Z];
+    pose.yaw = yawOf(values);
     path_.poses.push_back(pose);
+  }
+
+  // Throws InputError for a quaternion of zeros, and where the waypoint tilts too much.
+  double yawOf(const Row& row) const {
+    try {
+      base::YawAndTilt turned{std::remainder(row[YAW], 2.0 * M_PI),
+                              std::acos(std::cos(row[ROLL]) * std::cos(row[PITCH]))};
+      if (has(QW)) turned = base::yawAndTiltOfQuaternion(row[QX], row[QY], row[QZ], row[QW]);
+      if (turned.tilt <= kLargestWaypointTilt) return turned.yaw;
+      throw InputError("the orientation must tilt by at most 0.7 rad, got " +
+                       std::to_string(turned.tilt) + " rad");
+    } catch (const InputError& error) {
+      throw InputError(file_, line_, error.what());
+    }
   }
 
   double valueOf(const std::string& text, std::size_t column) const {
@@ -110,9 +138,11 @@ class CsvReading {
     } catch (const InputError& error) {
       throw InputError(file_, line_, error.what());
     }
-    if (std::abs(value) > kLargestCoordinate)
+    const double largest = column <= Z ? largestCoordinateIn(path_.frame_id) : kLargestCoordinate;
+    if (std::abs(value) > largest)
       throw InputError(file_, line_,
-                       std::string(kColumns[column]) + " must be within 1e6 of 0, got '" +
+                       std::string(kColumns[column]) + " must be within " +
+                           (largest == kLargestCoordinate ? "1e6" : "1e8") + " of 0, got '" +
                            text.substr(0, 80) + "'");
     return value;
   }

@@ -4,6 +4,7 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/yaml_file.h"
+#include "grid_path_planner/path/headings.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "path/waypoint_entry.h"
 #include "path/waypoint_formats/waypoint_texts.h"

@@ -29,7 +29,8 @@ Path poseArrayPath(const WaypointText& text) {
   }
   for (const YAML::Node& node : poses) {
     text.limits.goOn(file);
-    appendWaypoint(node, read.path.poses.size() + 1, file, read);
+    const bool of_path = node.IsMap() && node["pose"] && !node["position"];  // nav_msgs/Path
+    appendWaypoint(of_path ? node["pose"] : node, read.path.poses.size() + 1, file, read);
   }
   return read.path;
 }

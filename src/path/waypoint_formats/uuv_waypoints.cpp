@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "grid_path_planner/base/yaml_file.h"
+#include "grid_path_planner/path/headings.h"
 #include "path/waypoint_entry.h"
 #include "path/waypoint_formats/waypoint_texts.h"
 

@@ -68,19 +68,6 @@ bool isPlainFrame(const std::string& frame) {
   });
 }
 
-void lookAlongPath(Path& path) {
-  Path along = path;
-  const std::size_t count = path.poses.size();
-  double last = 0.0;
-  for (std::size_t i = 1; i < count; ++i) {
-    const Eigen::Vector3d step = path.poses[i].position - path.poses[i - 1].position;
-    if (step.head<2>().norm() > 0.0) last = std::atan2(step.y(), step.x());
-  }
-  applyHeadings(along, 0.0, last, HeadingMode::FORWARD);
-  for (std::size_t i = 0; i < count; ++i)
-    if (std::isnan(path.poses[i].yaw)) path.poses[i].yaw = along.poses[i].yaw;
-}
-
 WaypointFormat waypointFormatOf(const std::string& file, const ReadLimits& limits) {
   const std::string extension = extensionOf(file);
   if (extension == "csv") return WaypointFormat::CSV;

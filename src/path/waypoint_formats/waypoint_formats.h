@@ -7,13 +7,14 @@
 // UUV         the waypoint file of UUV simulator: point, max_forward_speed, heading, use_fixed_heading. Of
 //             world_ned north, east and down become y, x and -z. A heading that is not fixed is added to
 //             the direction of the path. Speeds are not kept.
-// POSE_ARRAY  geometry_msgs/PoseArray as `rostopic echo` prints it
-// CSV         x,y[,z[,yaw]] a line, or a first line that names these columns in any order; `# frame_id: map`
+// POSE_ARRAY  geometry_msgs/PoseArray or nav_msgs/Path as `rostopic echo` prints it; all poses are in the frame of its header
+// CSV         x,y[,z[,yaw]] or x,y,z,qx,qy,qz,qw a line, as follow_waypoints saves it, or a first line that names such columns,
+//             and roll and pitch, in any order; `# frame_id: map`
 // GEOJSON     points and lines (RFC 7946) with longitude, latitude and altitude, by a datum; without an
 //             altitude z is 0. The property `yaw` is a number, or a list with one for each position, in
 //             radians anticlockwise from east.
 //
-// Where a format gives no yaw, the vehicle looks along the path. Positions beyond kLargestCoordinate and
+// Where a format gives no yaw, the vehicle looks along the path. Positions beyond largestCoordinateIn(the frame) and
 // numbers that are not finite are refused in both directions.
 #pragma once
 

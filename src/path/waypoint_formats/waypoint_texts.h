@@ -32,7 +32,4 @@ std::string geojsonText(const Path& path, const Datum& datum);
 // Of letters, digits and _ / - . alone, so that it is itself in every format.
 bool isPlainFrame(const std::string& frame);
 
-// Gives poses whose yaw is NaN the direction of the path there, at its end that of the last segment.
-void lookAlongPath(Path& path);
-
 }  // namespace grid_path_planner::path
