@@ -141,7 +141,8 @@ std::string oldBmp() {
 std::vector<std::int8_t> expectedOf(const std::string& content, const PixelRule& rule, int white) {
   cv::Mat image = cv::imdecode(std::vector<char>(content.begin(), content.end()), -1);
   if (white == 0) white = image.depth() == CV_8U ? 255 : 65535;
-  image.convertTo(image, CV_8U, 255.0 / white);
+  const bool upper_bits = image.depth() == CV_16U && content[1] == 'P';  // of a PNG
+  image.convertTo(image, CV_8U, upper_bits ? 1.0 / 256 : 255.0 / white, upper_bits ? -0.499 : 0.0);
   const int channels = image.channels();
   const int averaged = channels == 4 && rule.mode != MapMode::TRINARY ? 3 : channels;
   std::vector<std::int8_t> values;
@@ -160,7 +161,8 @@ std::vector<std::int8_t> expectedOf(const std::string& content, const PixelRule&
       else if (rule.mode == MapMode::TRINARY || (channels == 4 && pixel[3] == 0))
         values.push_back(-1);
       else
-        values.push_back(static_cast<std::int8_t>(99 * (occupied - rule.free_thresh) / range));
+        values.push_back(
+            static_cast<std::int8_t>(1 + 98 * ((occupied - rule.free_thresh) / range)));
     }
   return values;
 }

@@ -83,11 +83,12 @@ TEST_F(MapServerFile, ThresholdsAreTakenFromTheFile) {
   EXPECT_EQ(valuesOf(more, pgmLine({25, 26, 229, 230})), (Values{100, -1, -1, 0}));
 }
 
-// As map_server's image_loader has it: 99 (p - free) / (occupied - free), cut to an integer.
+// As map_server's image_loader of Noetic has it: 1 + 98 (p - free) / (occupied - free), cut to an integer. By 99 alone, as
+// older ones had it, what lies just above free_thresh was free.
 TEST_F(MapServerFile, ScaleModeInterpolates) {
   const std::string more = "mode: scale\nfree_thresh: 0.2\noccupied_thresh: 0.6\n";
   EXPECT_EQ(valuesOf(more, pgmLine({0, 101, 103, 153, 200, 205, 255})),
-            (Values{100, 100, 98, 49, 3, 0, 0}));
+            (Values{100, 100, 98, 50, 4, 0, 0}));
 }
 
 TEST_F(MapServerFile, RawModeTakesTheValueItself) {
@@ -109,7 +110,7 @@ TEST_F(MapServerFile, AColourImageIsAveragedWithAWarning) {
 TEST_F(MapServerFile, TransparentIsUnknownInScaleMode) {
   cv::Mat image(1, 3, CV_8UC4);
   image.at<cv::Vec4b>(0, 0) = {150, 150, 150, 0};
-  image.at<cv::Vec4b>(0, 1) = {150, 150, 150, 255};  // p = 0.412: 99 (0.412 - 0.196) / 0.454
+  image.at<cv::Vec4b>(0, 1) = {150, 150, 150, 255};  // p = 0.412: 1 + 98 (0.412 - 0.196) / 0.454
   image.at<cv::Vec4b>(0, 2) = {0, 0, 0, 255};
   EXPECT_EQ(valuesOfColours("mode: scale\n", image), (Values{-1, 47, 100}));
 }
@@ -129,6 +130,8 @@ TEST_F(MapServerFile, SixteenBitsAreReadAsEight) {
   image.at<std::uint16_t>(0, 1) = 205 * 257;
   image.at<std::uint16_t>(0, 2) = 65535;
   EXPECT_EQ(valuesOfColours("", image), (Values{100, -1, 0}));
+  image.at<std::uint16_t>(0, 1) = 206 * 256 + 17;  // the upper ones, as SDL: rounded it was 205
+  EXPECT_EQ(valuesOfColours("", image), (Values{100, 0, 0}));
   EXPECT_TRUE(warnings_.empty());
 }
 

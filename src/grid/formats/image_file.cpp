@@ -82,7 +82,8 @@ class PixelTable {
     if (occupied < rule_.free_thresh) return 0;
     if (rule_.mode == MapMode::TRINARY || transparent) return -1;
     const double range = rule_.occupied_thresh - rule_.free_thresh;
-    return range > 0.0 ? static_cast<std::int8_t>(99 * (occupied - rule_.free_thresh) / range) : 0;
+    if (range <= 0.0) return 1;
+    return static_cast<std::int8_t>(1 + 98 * ((occupied - rule_.free_thresh) / range));
   }
 
   PixelRule rule_;

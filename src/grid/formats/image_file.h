@@ -1,12 +1,13 @@
 // Images as maps, by map_server's rules (its image_loader.cpp).
 //
 // A pixel v means p = (255 - v) / 255, or v / 255 with `negate`: occupied where p >
-// occupied_thresh, free where p < free_thresh. Between them: unknown in TRINARY; in SCALE 99 (p -
+// occupied_thresh, free where p < free_thresh. Between them: unknown in TRINARY; in SCALE 1 + 98 (p -
 // free_thresh) / (occupied_thresh - free_thresh), cut to an integer, and unknown where the pixel is
 // transparent. RAW takes v itself (255 - v with `negate`) up to 100 and all above for unknown.
 //
 // A colour image is averaged over its channels, in TRINARY over its alpha channel too, as
-// map_server does; `warn` is told. Of 16-bit images the upper 8 bits count.
+// map_server does; `warn` is told. Of a PNG of 16 bits the upper 8 count. Unlike map_server, which takes
+// the numbers of a palette for greys, its colours count, and a PGM may have 16 bits.
 #pragma once
 
 #include <string>

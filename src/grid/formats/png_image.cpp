@@ -63,7 +63,7 @@ class PngReader : private LongjmpDecoder {
   // told apart.
   void chooseConversions() {
     const int type = png_get_color_type(png_, info_);
-    png_set_scale_16(png_);
+    png_set_strip_16(png_);
     if (type == PNG_COLOR_TYPE_GRAY) {
       png_set_expand_gray_1_2_4_to_8(png_);
     } else {
