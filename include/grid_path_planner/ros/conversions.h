@@ -3,8 +3,8 @@
 //   const Pose goal = poseFromMessage(message.pose);                    // throws InputError
 //   publisher.publish(pathToMessage(path, ros::Time::now()));
 //
-// A pose of this package is a position and a yaw; a message that says more (roll, pitch) or less (a
-// quaternion of zeros) is refused rather than read as something else.
+// A pose of this package is a position and a yaw; a message that says more (roll, pitch, beyond what is measured or typed
+// badly) or less (a quaternion of zeros) is refused rather than read as something else.
 #pragma once
 
 #include <geometry_msgs/Pose.h>
@@ -20,9 +20,8 @@ namespace grid_path_planner::nodes {
 // tilts. Precondition: not all components are 0.
 double yawOf(const geometry_msgs::Quaternion& quaternion);
 
-// Throws InputError for a number that is not finite, a coordinate beyond 1e6 m, a quaternion that
-// is zero or not normalised (its length off 1 by more than 0.01) or that is not level (roll or
-// pitch beyond 0.01 rad).
+// Throws InputError for a number that is not finite, a coordinate beyond 1e6 m, a quaternion that is zero, whose length is
+// off 1 by more than 0.1, or that tilts by more than 2.56 degrees.
 path::Pose poseFromMessage(const geometry_msgs::Pose& message);
 geometry_msgs::Pose poseToMessage(const path::Pose& pose);
 

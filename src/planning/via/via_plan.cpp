@@ -168,12 +168,17 @@ class ViaPlanning {
     // Of another order a path may cost less.
     if (request_.order == ViaOrder::BEST) joined.optimal = joined.optimal && answer_.order_exact;
     for (Path* path : {&joined.path, &joined.waypoints})
-      applyHeadings(*path, request_.start.yaw, request_.goal.yaw, options_.heading);
+      applyHeadings(*path, request_.start.yaw, goalYaw(*path), options_.heading);
     const std::string contact = contactOn(joined.path);
     if (!contact.empty()) return fail(failedPlan(Status::UNREACHABLE, contact), "the goal");
     if (!contactOn(joined.waypoints).empty()) joined.waypoints = joined.path;
     answer_.plan = std::move(joined);
     answer_.order = order;
+  }
+
+  double goalYaw(const Path& path) const {
+    return request_.any_goal_heading ? path::arrivalYaw(path, request_.start.yaw, options_.heading)
+                                     : request_.goal.yaw;
   }
 
   // The headings of the joined path need not be those of its legs.
@@ -290,7 +295,7 @@ class ViaPlanning {
     pose.position = request_.via[index];
     return {pose, viaName(index), true};
   }
-  LegEnd goal() const { return {request_.goal, "the goal"}; }
+  LegEnd goal() const { return {request_.goal, "the goal", request_.any_goal_heading}; }
 
   PathPlanner& planner_;
   const ViaRequest& request_;
@@ -303,6 +308,12 @@ class ViaPlanning {
   std::string notes_;
   ViaPlan answer_;
 };
+
+void lookAsItArrives(Plan& plan, const ViaRequest& request, path::HeadingMode mode) {
+  if (!plan.found()) return;
+  for (Path* path : {&plan.path, &plan.waypoints})
+    applyHeadings(*path, request.start.yaw, path::arrivalYaw(*path, request.start.yaw, mode), mode);
+}
 
 std::string complaintOf(const ViaRequest& request) {
   const std::size_t most = request.order == ViaOrder::BEST ? kMostOrdered : kMostVia;
@@ -321,8 +332,10 @@ std::string complaintOf(const ViaRequest& request) {
 ViaPlan planThrough(PathPlanner& planner, const ViaRequest& request, const StopSource& stop) {
   ViaPlan answer;
   if (request.via.empty()) {
-    answer.last_leg = {request.start, request.goal, request.record_expanded};
+    answer.last_leg = {request.start, request.goal, request.record_expanded,
+                       request.any_goal_heading};
     answer.plan = planner.plan(answer.last_leg, stop);
+    if (request.any_goal_heading) lookAsItArrives(answer.plan, request, planner.options().heading);
     return answer;
   }
   const std::string complaint = complaintOf(request);

@@ -37,6 +37,7 @@ struct ViaRequest {
   path::Pose goal;
   ViaOrder order = ViaOrder::GIVEN;
   bool record_expanded = false;
+  bool any_goal_heading = false;  // the vehicle may look as it arrives
 };
 
 constexpr std::size_t kMostVia = 1000;    // that are visited as they are given

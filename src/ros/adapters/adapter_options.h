@@ -3,17 +3,20 @@
 
 #include "grid_path_planner/base/options.h"
 #include "planning/cost_planner_options.h"
+#include "ros/messages/zero_heading.h"
 
 namespace grid_path_planner::nodes {
 
 struct AdapterOptions {
   planning::CostPlannerOptions planner;
+  ZeroHeading zero_heading = ZeroHeading::REFUSED;
   double pose_spacing = -1.0;  // m; -1: a cell of the costmap; 0: corners only
 };
 
 template <class Visitor>
 void visitOptions(AdapterOptions& o, Visitor&& visit) {
   visitOptions(o.planner, visit);
+  visitZeroHeading(o.zero_heading, visit);
   visit("pose_spacing", o.pose_spacing,
         base::OptionInfo{
             "Distance between poses of a plan at most, in equal parts between corners, for "

@@ -8,16 +8,18 @@
 
 #include "base/current_error.h"
 #include "grid_path_planner/MoveBasePluginConfig.h"
+#include "grid_path_planner/path/headings.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "path/pose_spacing.h"
 #include "ros/guard/parameters.h"
 #include "ros/guard/process/memory_limit_line.h"
+#include "ros/messages/pose_reading.h"
 
 namespace grid_path_planner::nodes {
 
 using base::currentErrorText, base::InputError, base::Status, base::StopSource;
-using path::Path, path::Pose, path::spacedPoses;
+using path::HeadingMode, path::Path, path::Pose, path::spacedPoses;
 using planning::failedPlan, planning::Plan, planning::PoseRequest;
 
 namespace {
@@ -35,13 +37,19 @@ Pose startPose(const geometry_msgs::Pose& message) {
   geometry_msgs::Pose level = message;
   const geometry_msgs::Quaternion& q = message.orientation;
   const double length = std::hypot(std::hypot(q.x, q.y), std::hypot(q.z, q.w));
-  if (std::abs(length - 1.0) < 0.01) {
+  if (std::abs(length - 1.0) < 0.1) {
     const double yaw = yawOf(q);
     level.orientation.x = level.orientation.y = 0.0;
     level.orientation.z = std::sin(yaw / 2.0);
     level.orientation.w = std::cos(yaw / 2.0);
   }
   return poseFromMessage(level);
+}
+
+Pose goalPose(const geometry_msgs::Pose& message, ZeroHeading zero_heading) {
+  const Pose pose = readPose(message, zero_heading).pose;
+  checkCoordinates(pose.position);
+  return pose;
 }
 
 template <class Work>
@@ -159,13 +167,21 @@ Plan PlannerAdapter::plan(const geometry_msgs::PoseStamped& start,
                                                      frame + "', the costmap in '" + frame_id_ +
                                                      "'");
   }
-  const PoseRequest request{named("start", [&] { return startPose(start.pose); }),
-                            named("goal", [&] { return poseFromMessage(goal.pose); })};
+  PoseRequest request{named("start", [&] { return startPose(start.pose); }),
+                      named("goal", [&] { return goalPose(goal.pose, options_.zero_heading); })};
+  request.any_goal_heading = std::isnan(request.goal.yaw);
+  if (request.any_goal_heading) request.goal.yaw = request.start.yaw;
   const double within = tolerance.value_or(options_.planner.default_tolerance);
   if (!(within >= 0.0))
     throw InputError("the tolerance must be at least 0 m, got " + std::to_string(within));
   give_costs(planner_);
-  return planner_.plan(request, within, stop);
+  Plan plan = planner_.plan(request, within, stop);
+  if (plan.found() && request.any_goal_heading) {
+    const HeadingMode heading = options_.planner.heading;
+    const double yaw = path::arrivalYaw(plan.path, request.start.yaw, heading);
+    path::applyHeadings(plan.path, request.start.yaw, yaw, heading);
+  }
+  return plan;
 }
 
 PlannerAdapter::Answer PlannerAdapter::answerOf(Plan plan) {

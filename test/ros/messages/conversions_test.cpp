@@ -7,6 +7,7 @@
 #include <random>
 
 #include "grid_path_planner/base/errors.h"
+#include "ros/messages/pose_reading.h"
 
 namespace grid_path_planner::nodes {
 
@@ -46,10 +47,38 @@ TEST(PoseFromMessage, BadQuaternionsAreRefused) {
   EXPECT_NO_THROW(poseFromMessage(message(0, 0, 0, 0, 0, 0.745, 0.663))) << "three digits";
 }
 
+// What was seen: goals that move_base drives to were refused, of 3-D estimates and of quaternions that were typed.
+TEST(PoseFromMessage, WhatMoveBaseTakesIsTaken) {
+  const double roll = 1.5 * M_PI / 180.0;
+  const Pose tilted =
+      poseFromMessage(message(1, 2, 3, std::sin(roll / 2), 0, 0, std::cos(roll / 2)));
+  EXPECT_NEAR(tilted.yaw, 0.0, 1e-12);
+  EXPECT_NEAR(
+      poseFromMessage(message(0, 0, 0, 0, 0, 0.98 * std::sin(0.3), 0.98 * std::cos(0.3))).yaw, 0.6,
+      1e-12);
+  const double limit = 2.56 * M_PI / 180.0, beyond = 2.6 * M_PI / 180.0;
+  EXPECT_NO_THROW(
+      poseFromMessage(message(0, 0, 0, 0, std::sin(limit / 2), 0, std::cos(limit / 2))));
+  EXPECT_THROW(poseFromMessage(message(0, 0, 0, 0, std::sin(beyond / 2), 0, std::cos(beyond / 2))),
+               InputError);
+}
+
+TEST(ReadPose, SaysWhatItTookAndLeavesTheLimitToTheMap) {
+  EXPECT_EQ(readPose(message(0, 0, 0, 0, 0, 0.745, 0.663), ZeroHeading::REFUSED).told, nullptr);
+  EXPECT_NE(readPose(message(0, 0, 0, 0.013, 0, 0, 1), ZeroHeading::REFUSED).told, nullptr);
+  EXPECT_NE(readPose(message(0, 0, 0, 0, 0, 0, 0.98), ZeroHeading::REFUSED).told, nullptr);
+  EXPECT_EQ(readPose(message(5e5, 4.5e6, 0, 0, 0, 0, 1), ZeroHeading::REFUSED).pose.position.y(),
+            4.5e6);
+  EXPECT_TRUE(std::isnan(readPose(message(0, 0, 0, 0, 0, 0, 0), ZeroHeading::ANY).pose.yaw));
+  EXPECT_THROW(readPose(message(0, 0, 0, 0, 0, 0, 0), ZeroHeading::REFUSED), InputError);
+  EXPECT_THROW(readPose(message(0, 0, 0, 0, 0, 0, 1e-9), ZeroHeading::ANY), InputError);
+}
+
 TEST(PoseFromMessage, AbsurdCoordinatesAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(poseFromMessage(message(nan, 0, 0, 0, 0, 0, 1)), InputError);
   EXPECT_THROW(poseFromMessage(message(0, 1e180, 0, 0, 0, 0, 1)), InputError);
+  EXPECT_THROW(poseFromMessage(message(0, 1.1e6, 0, 0, 0, 0, 1)), InputError);
   EXPECT_THROW(poseFromMessage(message(0, 0, -INFINITY, 0, 0, 0, 1)), InputError);
 }
 

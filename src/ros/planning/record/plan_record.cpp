@@ -1,6 +1,7 @@
 #include "ros/planning/record/plan_record.h"
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -98,6 +99,7 @@ PlanRecord recordOf(const PlanQuestion& question, const OccupancyGrid& map, cons
   record.pose_spacing = question.pose_spacing;
   record.start = numbersOf(question.request.start);
   record.goal = numbersOf(question.request.goal);
+  if (question.request.any_goal_heading) record.goal[3] = std::numeric_limits<double>::quiet_NaN();
   for (const Eigen::Vector3d& via : question.request.via)
     record.via_points.insert(record.via_points.end(), {via.x(), via.y(), via.z()});
   record.best_order = question.request.order == ViaOrder::BEST;
@@ -117,14 +119,18 @@ PlanQuestion questionOf(const PlanRecord& record) {
     throw InputError("its lists of numbers are no poses");
   if (!(record.pose_spacing >= -1.0 && record.pose_spacing <= kWidestSpacing))
     throw InputError("its pose_spacing is " + std::to_string(record.pose_spacing));
+  Numbers goal = record.goal;
+  const bool any_goal_heading = std::isnan(goal[3]);
+  if (any_goal_heading) goal[3] = record.start[3];
   checkPlaces(record.start);
-  checkPlaces(record.goal);
+  checkPlaces(goal);
   checkPlaces(record.via_points);
   PlanQuestion question;
   question.options = optionsFrom(record.options);
   question.pose_spacing = record.pose_spacing;
   question.request.start = poseOf(record.start);
-  question.request.goal = poseOf(record.goal);
+  question.request.goal = poseOf(goal);
+  question.request.any_goal_heading = any_goal_heading;
   for (std::size_t i = 0; i < record.via_points.size(); i += 3)
     question.request.via.emplace_back(record.via_points[i], record.via_points[i + 1],
                                       record.via_points[i + 2]);
