@@ -1,11 +1,13 @@
 // Whether the map that a vehicle is driven by is there, and still kept up.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <string>
 
 #include "base/seconds_since.h"
+#include "ros/guard/clock.h"
 #include "ros/input/map_receiver.h"
 
 namespace grid_path_planner::nodes {
@@ -13,11 +15,33 @@ namespace grid_path_planner::nodes {
 // How long a publisher without heartbeats may be deaf.
 constexpr double kPublisherTimeout = 5.0;  // s
 
+// With one decimal: the text changes from tick to tick.
+std::string silenceText(double seconds);
+
+// For how long a vehicle was commanded to move, by ROS time.
+class DrivenTime {
+ public:
+  // Such a command is sent.
+  void note(const ros::Time& now) {
+    seconds_ += std::clamp(secondsBetween(last_, now), 0.0, kLongestTick);
+    last_ = now;
+  }
+  double seconds() const { return seconds_; }
+
+ private:
+  static constexpr double kLongestTick = 0.2;  // s, between two commands of one drive
+
+  ros::Time last_;
+  double seconds_ = 0.0;
+};
+
 struct MapLife {
-  std::string topic;       // resolved
-  ReceivedMap map;         // its grid is null before the first
-  bool heartbeat = false;  // whether the publisher of the map sends heartbeats
-  ros::Time newest;        // measurement in the map, or the map's own stamp
+  std::string topic;  // resolved
+  ReceivedMap map;    // its grid is null before the first
+  // Whether its publisher offers it by the service static_map, as map_server and map_publisher do: no other one is expected.
+  // None: it is not known.
+  std::optional<bool> of_file;
+  DrivenTime driven;  // since map.data.changes() changed
   // The last map, piece, heartbeat or, without heartbeats, answer of the publisher; pieces of others are none.
   std::chrono::steady_clock::time_point sign;
   std::string lost;  // why the map lacks changes; empty where it does not
@@ -26,7 +50,11 @@ struct MapLife {
   double silence() const { return base::secondsSince(sign); }
 };
 
+struct MapTimeouts {
+  double heartbeat, data;  // s
+};
+
 // Why the vehicle must not be driven by it, in a sentence; empty where it may.
-std::string whyNoMap(const MapLife& life, double map_timeout);
+std::string whyNoMap(const MapLife& life, const MapTimeouts& timeouts);
 
 }  // namespace grid_path_planner::nodes

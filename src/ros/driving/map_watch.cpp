@@ -2,16 +2,12 @@
 
 #include <utility>
 
-#include "ros/guard/guarded_queue.h"
-#include "ros/guard/master/xmlrpc_call.h"
+#include "ros/guard/master/system_state.h"
 
 namespace grid_path_planner::nodes {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr auto kPublisherPeriod = std::chrono::seconds(1);
-constexpr double kPublisherPatience = 1.0;  // that the publisher is asked
+constexpr double kMasterPatience = 1.0;  // s, for what it says of the publisher
 
 }  // namespace
 
@@ -23,17 +19,13 @@ MapWatch::MapWatch(const ros::NodeHandle& nh, Listener listener) : listener_(std
     life_.topic = receiver_.topic();
   }
   tell();
-  thread_ = std::thread([this] { run(); });
+  publisher_ = std::make_unique<PublisherWatch>(PublisherWatch::Callbacks{
+      [this] { return whom(); }, [this](const std::string& node) { onAnswer(node); }});
 }
 
 MapWatch::~MapWatch() {
   receiver_.shutdown();
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    done_ = true;
-  }
-  ends_.notify_all();
-  thread_.join();
+  publisher_.reset();
 }
 
 MapLife MapWatch::life() const {
@@ -56,9 +48,8 @@ void MapWatch::onMap() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     noteLoss();
+    if (map.publisher != life_.map.publisher) life_.of_file.reset();
     life_.map = std::move(map);
-    life_.heartbeat = life_.map.publisher == heartbeat_of_;
-    if (!life_.heartbeat) life_.newest = life_.map.stamp;
     if (life_.map.sender == life_.map.publisher) life_.sign = life_.map.received;
   }
   tell();
@@ -66,63 +57,35 @@ void MapWatch::onMap() {
 
 void MapWatch::onHeartbeat() {
   const auto heartbeat = receiver_.heartbeat();
+  const MapData data = receiver_.latest().data;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     noteLoss();
-    // Another's heartbeat does not end the watch of those of the map's own publisher.
-    if (life_.heartbeat && heartbeat->publisher != heartbeat_of_) return;
-    heartbeat_of_ = heartbeat->publisher;
-    life_.heartbeat = life_.map.publisher == heartbeat_of_;
-    if (!life_.heartbeat) return;  // of a map that has not come
-    life_.newest = heartbeat->stamp;
+    if (heartbeat->publisher != life_.map.publisher) return;
+    life_.map.data = data;
     life_.sign = heartbeat->received;
   }
   tell();
 }
 
-void MapWatch::run() {
-  std::unique_lock<std::mutex> lock(mutex_);
-  while (!done_) {
-    lock.unlock();
-    try {
-      askPublisher();
-    } catch (...) {
-      tellGivenUp("A question to the map's publisher");
-    }
-    lock.lock();
-    ends_.wait_for(lock, kPublisherPeriod, [this] { return done_; });
-  }
+// The publisher of a map without a heartbeat.
+std::string MapWatch::whom() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return life_.map.grid && !life_.map.data.beats() ? life_.map.publisher : "";
 }
 
-// Of a map without a heartbeat.
-void MapWatch::askPublisher() {
-  std::string node;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (!life_.map.grid || life_.heartbeat) return;
-    node = life_.map.publisher;
-  }
-  if (node != node_) uri_.clear();
-  node_ = node;
-  if (!publisherAnswers()) return;
+void MapWatch::onAnswer(const std::string& node) {
+  const MapLife before = life();
+  const auto of_file = before.map.publisher == node && before.of_file
+                           ? before.of_file
+                           : offersService(node, "static_map", kMasterPatience);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (life_.map.publisher != node) return;
-    life_.sign = Clock::now();
+    life_.of_file = of_file;
+    life_.sign = std::chrono::steady_clock::now();
   }
   tell();
-}
-
-// Where it does not, the next time at the URI that the master knows by then.
-bool MapWatch::publisherAnswers() {
-  try {
-    if (uri_.empty()) uri_ = uriOfNode(node_, kPublisherPatience).value_or("");
-    if (!uri_.empty() && answersXmlRpc(uri_, kPublisherPatience)) return true;
-  } catch (...) {
-    tellGivenUp("A question to the map's publisher");
-  }
-  uri_.clear();
-  return false;
 }
 
 }  // namespace grid_path_planner::nodes

@@ -1,18 +1,18 @@
-// Receives the map and watches whether its publisher lives: by its heartbeats, and by its answers to
-// XML-RPC where it has sent none (roscpp's count of links does not see a publisher that was killed).
+// Receives the map and watches whether its publisher lives: by its heartbeats, and by its answers where it has sent none
+// (publisher_watch.h).
 //
 //   MapWatch watch(nh, [&](const MapLife& life) { use(life); });
 #pragma once
 
 #include <ros/node_handle.h>
 
-#include <condition_variable>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 
 #include "ros/driving/map_life.h"
+#include "ros/driving/publisher_watch.h"
 #include "ros/input/foreign_rules.h"
 #include "ros/input/map_receiver.h"
 
@@ -37,9 +37,8 @@ class MapWatch {
   void noteLoss();  // under the lock
   void onHeartbeat();
   void tell();
-  void run();
-  void askPublisher();
-  bool publisherAnswers();
+  std::string whom() const;
+  void onAnswer(const std::string& node);
 
   const Listener listener_;
   std::mutex telling_;  // so that no older life is told after a newer one
@@ -48,12 +47,7 @@ class MapWatch {
 
   mutable std::mutex mutex_;
   MapLife life_;
-  std::string heartbeat_of_;  // the node
-  std::condition_variable ends_;
-  bool done_ = false;
-  std::string uri_;   // the thread's: of the publisher
-  std::string node_;  // the thread's: whose that is
-  std::thread thread_;
+  std::unique_ptr<PublisherWatch> publisher_;
 };
 
 }  // namespace grid_path_planner::nodes

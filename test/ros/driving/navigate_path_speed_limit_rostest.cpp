@@ -3,6 +3,7 @@
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/support/navigate_fixture.h"
+#include "support/temporary_folder.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -59,6 +60,27 @@ TEST_F(SpeedLimitedDrive, WaitsForTheMapWhereItIsAskedTo) {
   EXPECT_TRUE(navigate_->says("no map of speed limits has come on speed_limit yet"));
   EXPECT_TRUE(staysStill(2.0));
   publishLimit(0);
+  EXPECT_TRUE(moves());
+}
+
+// What was seen: a mask of a node that had been dead for minutes was heeded for ever; the limits that it would have sent
+// since, for the zone that is closed now, nobody knew.
+TEST_F(SpeedLimitedDrive, HoldsWhileTheNodeThatSentTheMapIsDead) {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> latched = {
+      "--filename", folder.write("zone.map", "type octile\nheight 1\nwidth 2\nmap\n..\n"),
+      "_topic:=speed_limit"};
+  auto zones = std::make_unique<test::Process>("map_publisher", latched);
+  startSimulator(kObedient);
+  startNavigate({"_use_speed_limit:=true", "_no_progress_timeout:=0"});
+  publishPath(pathOf({{0, 0}, {900, 0}}));
+  ASSERT_TRUE(moves());
+  zones->signal(SIGKILL);
+  EXPECT_TRUE(
+      navigate_->says("the map of speed limits on /speed_limit is not kept up: "
+                      "/map_publisher has not answered for"));
+  EXPECT_TRUE(staysStill(2.0));
+  zones = std::make_unique<test::Process>("map_publisher", latched);
   EXPECT_TRUE(moves());
 }
 
