@@ -60,7 +60,8 @@ CONTEXT = {
     "request_messages.h": "extern const PlanPathGoal goal; extern const ComparePlans::Request comparison; void ask(const PlanningRequest&);",
     "request_poses.h": "extern const PlanningRequest request; extern const PathPlannerNodeOptions options; extern const FrameLookup transforms;",
     "json_numbers.h": "struct Run { int seed; }; extern Run run; extern const nlohmann::json object;",
-    "map_watch.h": "extern ros::NodeHandle nh;", "direct_publisher.h": "#include <geometry_msgs/Twist.h>\nextern ros::NodeHandle nh; extern geometry_msgs::Twist twist;",
+    "map_watch.h": "extern ros::NodeHandle nh;",
+    "publisher_watch.h": "extern std::string name_of_publisher; void heard(const std::string& node);", "direct_publisher.h": "#include <geometry_msgs/Twist.h>\nextern ros::NodeHandle nh; extern geometry_msgs::Twist twist;",
     "map_autosave.h": "extern std::string folder; extern ros::NodeHandle private_nh; extern ProjectedMapOptions options;"
                       "extern ros::Time newest_cloud;",
     "path_clearance_check.h": "extern const OccupancyGrid& map; extern std::vector<Eigen::Vector3d> ahead; void halt(const Eigen::Vector2d&);",

@@ -51,12 +51,11 @@ Commands commandsOf(const ros::NodeHandle& nh, const LocalPlannerOptions& option
 }
 
 // Where the vehicle is now that was there so long ago.
-avoidance::VehiclePose carriedOn(const FrameTransforms::RecentPose& recent,
-                                 const BodyVelocity& velocity) {
-  const double age = std::max(0.0, recent.age);
+avoidance::VehiclePose carriedOn(const Placed& placed, const BodyVelocity& velocity) {
+  const path::Pose then = placed.level();
+  const double age = std::max(0.0, placed.age);
   const double turn = age * velocity.yaw_rate;
-  return {recent.pose.position + age * base::inMap(velocity, recent.pose.yaw + 0.5 * turn),
-          recent.pose.yaw + turn};
+  return {then.position + age * base::inMap(velocity, then.yaw + 0.5 * turn), then.yaw + turn};
 }
 
 std::vector<Eigen::Vector3d> positionsOf(const path::Path& path) {
@@ -93,6 +92,7 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
   offerServices(private_nh);
   reconfigurable_ = std::make_unique<Reconfigurable<LocalPlannerConfig, LocalPlannerOptions>>(
       private_nh, options_, [this](const LocalPlannerOptions& options) { use(options); });
+  on_jump_back_ = NodeTime::of(nh_).onJumpBack([this](double seconds) { timeWentBack(seconds); });
   startTimer();
   startDiagnostics();
 }
@@ -107,6 +107,7 @@ void LocalPlannerNode::flyFile(const NodeFiles& files) {
 }
 
 LocalPlannerNode::~LocalPlannerNode() {
+  on_jump_back_.reset();
   control_timer_.stop();
   diagnostics_timer_.stop();
   stop();
@@ -127,17 +128,17 @@ void LocalPlannerNode::startLog(const NodeFiles& files) {
 
 FlightAction::Hands LocalPlannerNode::hands() {
   return {[this](const path::Path& path, bool along, unsigned handovers) {
-            const path::Path flown = inMap(path);
+            const path::Path flown = transforms_.place(path, placingInMap());
             fly(flown, along, handovers);
             given_goals_.endAllUntil(ros::Time::now());
             return flown;
           },
-          [this] { noticeTime(); }, [this] { return handovers_; },
+          [this] { return handovers_; },
           [this](const std::string& reason) {
             endGoalsUntilNow();
             if (flies_) pilot_.cancel(reason);
           },
-          [this](const nav_msgs::Path& path) { return inMap(pathIn(path), path.header.stamp); }};
+          [this](const nav_msgs::Path& path) { return transforms_.place(path, placingInMap()); }};
 }
 
 // Whoever took the vehicle that stood still does not find it flying off when he lets it go. What waits in the queue was
@@ -151,9 +152,7 @@ void LocalPlannerNode::noteHandover(unsigned handovers) {
   nh_.getCallbackQueue()->addCallback(callbackOf(note), reinterpret_cast<std::uint64_t>(this));
 }
 
-// A time of a moment, far ahead, is known to have gone back when the next one is noticed.
 void LocalPlannerNode::endGoalsUntilNow() {
-  noticeTime();
   given_goals_.endAllUntil(ros::Time::now());
 }
 
@@ -233,33 +232,31 @@ void LocalPlannerNode::startTimer() {
   control_timer_ = guardedTimer(nh_, 1.0 / options_.control_rate, [this] { control(); });
 }
 
-// The first time, and time that jumped back: only then is it known what is from before.
-bool LocalPlannerNode::noticeTime() {
-  if (!clock_.hasTime()) return false;
-  const auto back = clock_.jumpedBack();
-  const ros::Time now = ros::Time::now();                // after it: of the time that it says
-  if (started_.isZero()) given_goals_.endAllUntil(now);  // of one that was there before
-  if (started_.isZero() || back) started_ = now;
-  if (!back) return true;
+bool LocalPlannerNode::hasTime() {
+  if (!NodeTime::isThere()) return false;
+  if (!std::exchange(had_time_, true)) endGoalsUntilNow();  // of one that was there before
+  return true;
+}
+
+void LocalPlannerNode::timeWentBack(double seconds) {
   ROS_WARN_STREAM("ROS time went back by "
-                  << *back << " s: the flight is cancelled, and what was seen is forgotten");
-  transforms_.clear();
+                  << seconds << " s: the flight is cancelled, and what was seen is forgotten");
+  if (flies_) pilot_.cancel("time went back by " + std::to_string(seconds) + " s");
   clouds_.clear();
   map_.forget();
   odometry_.reset();
   given_goals_.timeWentBack();
   action_->cancelReading("ROS time went back");
-  tick(now);  // a goal that comes now is of this time
-  return true;
+  tick(ros::Time::now());  // a goal that comes now is of this time
 }
 
 // A publisher that latches sends what it published before this node was started, or restarted, or in a time that ROS
 // time went back from.
 bool LocalPlannerNode::isOfAnotherTime(const char* what, const ros::Time& stamp) {
-  noticeTime();
-  const std::string why = whyOfAnotherTime(stamp, started_, "local_planner");
-  if (!why.empty()) ROS_WARN_STREAM(what << " stamped " << stamp << " is not flown: " << why);
-  return !why.empty();
+  hasTime();  // or goals from before are not known to be over
+  const auto problem = NodeTime::of(nh_).problemWith(stamp);
+  if (problem) ROS_WARN_STREAM(what << " stamped " << stamp << " is not flown: " << *problem);
+  return problem.has_value();
 }
 
 void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
@@ -272,7 +269,7 @@ void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
   message.header = goal.header;
   message.poses = {goal};
   try {
-    fly(inMap(pathIn(message), goal.header.stamp), false, handovers_);
+    fly(transforms_.place(message, placingInMap()), false, handovers_);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
   }
@@ -294,24 +291,11 @@ void LocalPlannerNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   try {
-    fly(inMap(pathIn(message), message.header.stamp), true, handovers_);
+    fly(transforms_.place(message, placingInMap()), true, handovers_);
     given_goals_.drive(message);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
   }
-}
-
-// Of a frame that moves with the vehicle where that was at `stamp`, 0: is now.
-path::Path LocalPlannerNode::inMap(path::Path path, const ros::Time& stamp) const {
-  const std::string& map = options_.map_frame;
-  if (path.frame_id == map) return path;
-  transforms_.checkNotOlder(map, path.frame_id, ros::Time::now(), options_.tf_timeout);
-  const bool moves = transforms_.movesWith(options_.base_frame, path.frame_id);
-  const auto points =
-      transforms_.pointsIn(map, path.frame_id, positionsOf(path), moves ? stamp : ros::Time());
-  for (std::size_t i = 0; i < points.size(); ++i) path.poses[i].position = points[i];
-  path.frame_id = options_.map_frame;
-  return path;
 }
 
 void LocalPlannerNode::fly(const path::Path& path, bool along, unsigned handovers) {
@@ -337,11 +321,10 @@ PilotInput LocalPlannerNode::input(const ros::Time& now) {
   input.velocity = velocityAt(now);
   double pose_for = 0.0;  // s, until it is too old
   try {
-    const auto recent =
-        transforms_.recentPoseOf(options_.base_frame, options_.map_frame, now, options_.tf_timeout);
-    at_ = carriedOn(recent, input.velocity);
+    const Placed vehicle = transforms_.placeVehicle(placingInMap());
+    at_ = carriedOn(vehicle, input.velocity);
     input.pose = at_;
-    pose_for = options_.tf_timeout - recent.age;
+    pose_for = options_.tf_timeout - vehicle.age;
   } catch (const TransformError& error) {
     input.pose_problem = error.what();
   }
@@ -362,7 +345,7 @@ void LocalPlannerNode::takeFrames(PilotInput& input, const ros::Time& now) {
 }
 
 void LocalPlannerNode::control() {
-  if (noticeTime()) tick(ros::Time::now());
+  if (hasTime()) tick(ros::Time::now());
 }
 
 void LocalPlannerNode::tick(const ros::Time& now) {

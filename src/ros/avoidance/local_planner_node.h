@@ -63,11 +63,11 @@
 #include "ros/avoidance/local_planner_options.h"
 #include "ros/avoidance/logged_pilot.h"
 #include "ros/avoidance/map_planner.h"
-#include "ros/guard/clock.h"
 #include "ros/guard/incoming/bounded_subscription.h"
 #include "ros/guard/master/command_claim.h"
 #include "ros/guard/master/other_commanders.h"
 #include "ros/guard/node_files.h"
+#include "ros/guard/node_time.h"
 #include "ros/input/frame_lookup.h"
 #include "ros/input/given_goals.h"
 
@@ -109,13 +109,13 @@ class LocalPlannerNode {
   void startDiagnostics();
   void onGoal(const geometry_msgs::PoseStamped& goal);
   void onPath(const nav_msgs::Path& path);
-  bool noticeTime();
+  bool hasTime();
+  void timeWentBack(double seconds);
   bool isOfAnotherTime(const char* what, const ros::Time& stamp);
-  path::Path pathIn(const nav_msgs::Path& message) const {
-    return transforms_.pathIn(message, options_.base_frame, options_.map_frame,
-                              options_.tf_timeout);
+  Placing placingInMap() const {
+    return {options_.map_frame, options_.tf_timeout, Moving::WITH_VEHICLE, options_.base_frame,
+            options_.zero_heading};
   }
-  path::Path inMap(path::Path path, const ros::Time& stamp = ros::Time()) const;
   // `handovers`: handovers_ when it was given.
   void fly(const path::Path& path, bool along, unsigned handovers);
   void control();
@@ -132,7 +132,6 @@ class LocalPlannerNode {
   const CommandClaim commands_;
   OtherCommanders others_{commands_};
   FrameTransforms transforms_;
-  ClockWatch clock_;
   MapPlanner map_;
   LoggedPilot pilot_;
   avoidance::PilotAnswer answer_;
@@ -143,7 +142,7 @@ class LocalPlannerNode {
   std::optional<nav_msgs::Odometry> odometry_;
   FlightHold hold_;
   FlightCommander commander_;
-  ros::Time started_;  // when there was ROS time first, or after it jumped back
+  bool had_time_ = false;
   avoidance::VehiclePose at_;
   double good_for_ = 0.0;   // s from the newest plan, until clouds or pose are too old
   GivenGoals given_goals_;  // of the topic `path`
@@ -158,6 +157,7 @@ class LocalPlannerNode {
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer control_timer_, diagnostics_timer_;
   std::unique_ptr<Reconfigurable<LocalPlannerConfig, LocalPlannerOptions>> reconfigurable_;
+  std::shared_ptr<void> on_jump_back_;
 };
 
 }  // namespace grid_path_planner::nodes

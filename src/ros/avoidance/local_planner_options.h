@@ -8,6 +8,7 @@
 
 #include "grid_path_planner/avoidance/pilot_options.h"
 #include "ros/guard/scheduling/realtime_priority.h"
+#include "ros/messages/zero_heading.h"
 
 namespace grid_path_planner::nodes {
 
@@ -16,6 +17,7 @@ struct LocalPlannerOptions {
   std::string log;
   int log_limit = 4000;  // MB
   std::string cloud_topics;
+  ZeroHeading zero_heading = ZeroHeading::REFUSED;
   avoidance::PilotOptions pilot;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
@@ -33,6 +35,7 @@ void visitOptions(LocalPlannerOptions& o, Visitor&& visit) {
                          "it waits for a goal or a path",
                          ""}
             .under("What is flown"));
+  visitZeroHeading(o.zero_heading, visit);
   visit("log", o.log,
         base::OptionInfo{
             "File, name.flight below the folder to save in, for all that the pilot is given "

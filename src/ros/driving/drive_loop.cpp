@@ -84,23 +84,13 @@ void DriveLoop::finish() {
   thread_.askAtLast([this] {
     follower_.cancel("navigate_path ends");
     finished_ = true;
-    tryToTick();
   });
   if (numberOfListeners() > 0)
     ros::WallDuration(0.1).sleep();  // what a connection did not take is sent by roscpp's thread
 }
 
-// Exceptions of `work` come back; the tick shows its effect on cmd_vel at once.
-template <class Work>
-auto DriveLoop::ask(Work work) -> std::invoke_result_t<Work> {
-  return thread_.ask([this, work = std::move(work)]() {
-    noticeTimeJump(ros::Time::now());
-    return work();
-  });
-}
-
 unsigned DriveLoop::start(const Path& path, Join join, unsigned handovers) {
-  return ask([this, &path, join, handovers] {
+  return thread_.ask([this, &path, join, handovers] {
     if (finished_) throw base::InputError("navigate_path ends");
     follower_.start(path, join);
     if (handovers != handovers_) follower_.abandon(kTakenOver);
@@ -110,11 +100,11 @@ unsigned DriveLoop::start(const Path& path, Join join, unsigned handovers) {
 }
 
 PathFollower::Answer DriveLoop::pause() {
-  return ask([this] { return follower_.pause(); });
+  return thread_.ask([this] { return follower_.pause(); });
 }
 
 PathFollower::Answer DriveLoop::resume() {
-  return ask([this] {
+  return thread_.ask([this] {
     if (joystick_.commands())
       return PathFollower::Answer{false, "the joystick commands: let it go first"};
     return follower_.resume();
@@ -122,15 +112,15 @@ PathFollower::Answer DriveLoop::resume() {
 }
 
 PathFollower::Answer DriveLoop::cancel(const std::string& reason) {
-  return ask([this, &reason] { return follower_.cancel(reason); });
+  return thread_.ask([this, &reason] { return follower_.cancel(reason); });
 }
 
 void DriveLoop::abandon(const std::string& reason) {
-  ask([this, &reason] { follower_.abandon(reason); });
+  thread_.ask([this, &reason] { follower_.abandon(reason); });
 }
 
 void DriveLoop::setOptions(const NavigatePathOptions& options) {
-  ask([this, &options] {
+  thread_.ask([this, &options] {
     follower_.setOptions(options.follower);
     options_ = options;
     thread_.setRate(options.control_rate);
@@ -140,11 +130,16 @@ void DriveLoop::setOptions(const NavigatePathOptions& options) {
 }
 
 DriveStanding DriveLoop::standing() {
-  return ask([this] { return standingNow(); });
+  return thread_.ask([this] { return standingNow(); });
 }
 
 void DriveLoop::setMap(const MapLife& life) {
-  thread_.post([this, life] { map_ = life; });
+  thread_.post([this, life] {
+    const bool same = life.map.data.changes() == map_.map.data.changes();
+    const DrivenTime driven = same ? map_.driven : DrivenTime();
+    map_ = life;
+    map_.driven = driven;
+  });
 }
 
 void DriveLoop::setSpeedLimits(const SpeedLimits& limits) {
@@ -157,14 +152,10 @@ std::vector<DriveReport> DriveLoop::takeReports() {
   return std::exchange(reports_, {});
 }
 
-void DriveLoop::tryToTick() {
-  try {
-    tick();
-  } catch (...) {
-    publish({});  // before there is memory for anything else
-    const std::string error = currentErrorText();
-    follower_.abandon("the control loop failed: " + error);
-  }
+// In a catch block.
+void DriveLoop::giveUpTick() {
+  publish({});  // before anything else that wants memory
+  follower_.abandon("the control loop failed: " + currentErrorText());
 }
 
 void DriveLoop::tick() {
@@ -174,7 +165,6 @@ void DriveLoop::tick() {
     return;
   }
   const ros::Time now = ros::Time::now();
-  noticeTimeJump(now);
   if (now != now_) moved_ = Clock::now();
   now_ = now;
   tellHandovers();
@@ -183,15 +173,13 @@ void DriveLoop::tick() {
   report(now);
 }
 
-// Paths from before the jump are not of this time.
-void DriveLoop::noticeTimeJump(const ros::Time& now) {
-  if (now >= now_) return;
-  transforms_.clear();
+// The end is reported before another drive begins.
+void DriveLoop::timeWentBack(double seconds) {
+  follower_.abandon("time went back by " + std::to_string(seconds) + " s");
+  const ros::Time now = ros::Time::now();
   FollowInput without_pose;
   without_pose.time = now.toSec();
-  publish(follower_.update(without_pose));  // cancels, since time went back
-  now_ = now;
-  moved_ = Clock::now();
+  publish(follower_.update(without_pose));
   report(now);
 }
 
@@ -199,7 +187,7 @@ void DriveLoop::follow(const ros::Time& now) {
   FollowInput input;
   input.time = now.toSec();
   input.hold = whyHeld();
-  if (!follower_.path().empty() && input.hold.empty()) findVehicle(now, input);
+  if (!follower_.path().empty() && input.hold.empty()) findVehicle(input);
   if (options_.check_map || limits_.grid)
     input.check = [this](const std::vector<Eigen::Vector3d>& ahead) { return whyNotFree(ahead); };
   if (limits_.grid)
@@ -211,22 +199,24 @@ std::string DriveLoop::whyHeld() const {
   if (stopped_) return "stopped by the topic " + stop_subscriber_.getTopic();
   if (Clock::now() - moved_ > kClockTimeout) return "ROS time stands still: no /clock comes";
   if (options_.check_map) {
-    const std::string why = whyNoMap(map_, options_.map_timeout);
+    const std::string why = whyNoMap(map_, {options_.map_timeout, options_.map_data_timeout});
     if (!why.empty()) return why;
   }
   if (options_.use_speed_limit && !limits_.grid)
     return "no map of speed limits has come on speed_limit yet (use_speed_limit:=false drives "
            "without one)";
+  if (const std::string why = whyNoLimits(limits_); !why.empty()) return why;
   if (options_.master_timeout > 0.0 && master_->silence() > options_.master_timeout)
     return "the ROS master has not answered for longer than master_timeout";
   return "";
 }
 
-void DriveLoop::findVehicle(const ros::Time& now, FollowInput& input) const {
+void DriveLoop::findVehicle(FollowInput& input) const {
   try {
-    const auto recent = transforms_.recentPoseOf(options_.base_frame, follower_.path().frame_id,
-                                                 now, options_.tf_timeout);
-    input.pose = recent.pose;
+    input.pose = transforms_
+                     .placeVehicle({follower_.path().frame_id, options_.tf_timeout,
+                                    Moving::WITH_VEHICLE, options_.base_frame})
+                     .level();
   } catch (const TransformError& error) {
     input.pose_problem = error.what();
   }
@@ -234,10 +224,10 @@ void DriveLoop::findVehicle(const ros::Time& now, FollowInput& input) const {
 
 std::vector<Eigen::Vector3d> DriveLoop::inFrame(const std::string& frame,
                                                 const std::vector<Eigen::Vector3d>& points) const {
-  const std::string& path_frame = follower_.path().frame_id;
-  const std::string own_frame = frameInMap(frame, options_.map_frame);
-  transforms_.checkNotOlder(own_frame, path_frame, now_, options_.tf_timeout);
-  return transforms_.pointsIn(own_frame, path_frame, points);
+  std_msgs::Header path;
+  path.frame_id = follower_.path().frame_id;
+  return transforms_.place(
+      points, path, {frameInMap(frame, options_.map_frame), options_.tf_timeout, Moving::NO});
 }
 
 std::string DriveLoop::whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const {
@@ -326,6 +316,7 @@ void DriveLoop::publish(const BodyVelocity& velocity) {
   const bool driven = follower_.active() && follower_.state() != FollowState::PAUSED;
   if (!driven && !stopped_ && velocity.isZero() && silent_) return;
   velocity_publisher_.publish(velocityToMessage(velocity));
+  if (!velocity.isZero()) map_.driven.note(now_);
   silent_ = !driven && velocity.isZero();  // sent: what threw is tried again
 }
 

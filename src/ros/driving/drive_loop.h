@@ -27,7 +27,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "grid_path_planner/following/path_follower.h"
@@ -112,16 +111,13 @@ class DriveLoop {
  private:
   using Clock = std::chrono::steady_clock;
 
-  template <class Work>
-  auto ask(Work work) -> std::invoke_result_t<Work>;
-
   // In the loop's thread:
   void tick();
-  void tryToTick();
-  void noticeTimeJump(const ros::Time& now);
+  void giveUpTick();
+  void timeWentBack(double seconds);
   void follow(const ros::Time& now);
   std::string whyHeld() const;
-  void findVehicle(const ros::Time& now, following::FollowInput& input) const;
+  void findVehicle(following::FollowInput& input) const;
   std::string whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const;
   std::vector<Eigen::Vector3d> inFrame(const std::string& frame,
                                        const std::vector<Eigen::Vector3d>& points) const;
@@ -161,7 +157,8 @@ class DriveLoop {
   bool reports_told_ = false;  // since takeReports()
 
   DirectPublisher velocity_publisher_;
-  ControlThread thread_{[this] { tryToTick(); }};
+  ControlThread thread_{[this] { tick(); }, [this] { giveUpTick(); },
+                        [this](double seconds) { timeWentBack(seconds); }};
   ros::Subscriber manual_subscriber_;
   ros::Subscriber stop_subscriber_;
 };

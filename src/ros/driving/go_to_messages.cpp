@@ -4,11 +4,11 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/guard/network_text.h"
+#include "ros/messages/pose_reading.h"
 
 namespace grid_path_planner::nodes {
 
 using base::InputError;
-using following::Navigator;
 using following::NavigatorDrive;
 using following::NavigatorPlan;
 
@@ -20,16 +20,22 @@ NavigatorDrive::State stateOf(const NavigatePathFeedback& feedback) {
   return feedback.obstructed ? NavigatorDrive::State::OBSTRUCTED : NavigatorDrive::State::HELD;
 }
 
+template <class Result>
+std::string unknownStatus(const Result& result) {
+  return "the status '" + printable(result.status) + "' is not known: " + result.message;
+}
+
 }  // namespace
 
-void checkGoal(const geometry_msgs::PoseStamped& goal) {
+void checkGoal(const geometry_msgs::PoseStamped& goal, ZeroHeading zero_heading) {
   checkNetworkText("the frame of the goal", goal.header.frame_id);
-  poseFromMessage(goal.pose);
+  readPose(goal.pose, zero_heading);
 }
 
 NavigatorPlan navigatorPlanOf(const PlanPathResult& result, const std::string& map_frame) {
-  NavigatorPlan plan{result.status, result.message};
-  if (result.status != "FOUND") return plan;
+  const auto status = base::statusFromName(result.status);
+  NavigatorPlan plan{status, status ? result.message : unknownStatus(result)};
+  if (status != base::Status::FOUND) return plan;
   try {
     plan.path = pathFromMessage(result.path);
     plan.path.frame_id = frameInMap(plan.path.frame_id, map_frame);
@@ -38,12 +44,17 @@ NavigatorPlan navigatorPlanOf(const PlanPathResult& result, const std::string& m
                        map_frame + "'");
     return plan;
   } catch (const InputError& error) {
-    return {Navigator::kNoAnswer, std::string("the planner's path is refused: ") + error.what()};
+    return {std::nullopt, std::string("the planner's path is refused: ") + error.what()};
   }
 }
 
 NavigatorDrive navigatorDriveOf(const NavigatePathFeedback& feedback) {
   return {stateOf(feedback), feedback.distance_remaining_m, feedback.message};
+}
+
+DriverAnswer driverAnswerOf(const NavigatePathResult& result) {
+  const auto status = following::driveStatusFromName(result.status);
+  return {status, status ? result.message : unknownStatus(result)};
 }
 
 }  // namespace grid_path_planner::nodes

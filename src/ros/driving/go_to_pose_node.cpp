@@ -21,7 +21,6 @@
 namespace grid_path_planner::nodes {
 
 using base::InputError;
-using base::StopSource;
 using following::Navigator;
 using following::NavigatorState;
 using path::Path;
@@ -48,18 +47,21 @@ GoToPoseNode::GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
       options_(loadGoToPoseOptions(private_nh)),
       commands_(private_nh.getNamespace(), {{}, {nh.resolveName(options_.action_name)}, "", false}),
       transforms_(nh),
+      time_(NodeTime::of(nh)),
       navigator_(options_.navigator),
       planner_(
           nh, private_nh.getNamespace(), "plan_path",
           {[this](const PlanPathResult& result) { onPlan(result); }, [](const PlanPathFeedback&) {},
            [this](const std::string& sentence) {
-             navigator_.planned({Navigator::kNoAnswer, sentence}, seconds());
+             navigator_.planned({std::nullopt, sentence}, seconds());
              carryOutOrders();
            }}),
       driver_(nh, private_nh.getNamespace(), "navigate_path",
-              {[this](const NavigatePathResult& r) { onDriveEnd(r.status, r.message); },
+              {[this](const NavigatePathResult& result) { onDriveEnd(driverAnswerOf(result)); },
                [this](const NavigatePathFeedback& feedback) { onDriveFeedback(feedback); },
-               [this](const std::string& why) { onDriveEnd(Navigator::kNoAnswer, why); }}),
+               [this](const std::string& why) {
+                 onDriveEnd({std::nullopt, why});
+               }}),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   path_publisher_ = nh_.advertise<nav_msgs::Path>("go_to_path", 1, true);
   status_publisher_ = nh_.advertise<GoToStatus>("go_to_status", 1, true);
@@ -70,6 +72,7 @@ GoToPoseNode::GoToPoseNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh)
   subscribe();
   reconfigurable_ = std::make_unique<Reconfigurable<GoToPoseConfig, GoToPoseOptions>>(
       private_nh, options_, [this](const GoToPoseOptions& options) { use(options); });
+  on_jump_back_ = time_.onJumpBack([this](double seconds) { timeWentBack(seconds); });
   startTimers();
 }
 
@@ -132,11 +135,9 @@ void GoToPoseNode::use(const GoToPoseOptions& options) {
 // As move_base does it: others see the goal, its status and its result. It is taken before it is published, so that no
 // cancel and no other goal overtakes it; when it comes back the server knows it by its id.
 void GoToPoseNode::onSimpleGoal(const geometry_msgs::PoseStamped& message) {
-  if (started_.isZero() && clock_.hasTime()) started_ = ros::Time::now();
   const ros::Time& stamp = message.header.stamp;
-  const std::string why = stamp.isZero() ? "" : whyOfAnotherTime(stamp, started_, "go_to_pose");
-  if (!why.empty()) {
-    ROS_WARN_STREAM("A goal stamped " << stamp << " is not driven to: " << why);
+  if (const auto problem = time_.problemWith(stamp); problem && !stamp.isZero()) {
+    ROS_WARN_STREAM("A goal stamped " << stamp << " is not driven to: " << *problem);
     return;
   }
   const auto goal = boost::make_shared<move_base_msgs::MoveBaseActionGoal>();
@@ -152,7 +153,7 @@ void GoToPoseNode::onGoal(MoveBaseGoal handle) {
   const auto wanted = handle.getGoal();
   try {
     if (finished_) throw InputError("go_to_pose ends");
-    checkGoal(wanted->target_pose);
+    checkGoal(wanted->target_pose, options_.zero_heading);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("A goal is refused: " << error.what());
     handle.setRejected({}, std::string("INVALID_REQUEST: ") + error.what());
@@ -177,15 +178,22 @@ void GoToPoseNode::onCancel(const MoveBaseGoal& handle) {
   carryOutOrders();
 }
 
+Placing GoToPoseNode::placingInMap() const {
+  return {frameName(options_.map_frame), options_.tf_timeout, Moving::WITH_VEHICLE,
+          frameName(options_.base_frame), options_.zero_heading};
+}
+
 // Tried at every tick until tf knows it.
 void GoToPoseNode::locate() {
-  if (!goal_ || goal_->pose || !clock_.hasTime()) return;
+  if (!goal_ || goal_->pose || !time_.isThere()) return;
   if (!goal_->waits_since) goal_->waits_since = std::chrono::steady_clock::now();
-  const StopSource stop;
   try {
     geometry_msgs::PoseStamped pose;
-    pose.pose = poseToMessage(transforms_.poseIn(frameName(options_.map_frame), goal_->asked,
-                                                 options_.map_frame, 0.0, stop.token()));
+    path::Pose placed = transforms_.place(goal_->asked, placingInMap());
+    const bool any_heading = std::isnan(placed.yaw);
+    if (any_heading) placed.yaw = 0.0;
+    pose.pose = poseToMessage(placed);
+    if (any_heading) pose.pose.orientation = {};  // the planner's zero_heading says the same
     pose.header.frame_id = frameName(options_.map_frame);
     goal_->pose = last_pose_ = pose;
     navigator_.start(seconds());
@@ -201,19 +209,11 @@ void GoToPoseNode::locate() {
 }
 
 void GoToPoseNode::tick() {
-  if (!clock_.hasTime() || finished_) return;
-  const std::optional<double> back = clock_.jumpedBack();
-  const ros::Time now = ros::Time::now();  // after it: of the time that it says
-  if (started_.isZero()) started_ = now;
-  if (back) {
-    ROS_WARN_STREAM("ROS time went back by " << *back << " s: tf is cleared, the goal aborted");
-    transforms_.clear();
-    started_ = now;
-    abortAll("ROS time went back");
-  }
+  if (!time_.isThere() || finished_) return;
+  const ros::Time now = ros::Time::now();
   if (joystick_.expire()) noteHandover();
   locate();
-  noteVehicle(now);
+  noteVehicle();
   planner_.watch(options_.server_timeout);
   driver_.watch(options_.server_timeout);
   navigator_.tick(now.toSec());
@@ -222,6 +222,12 @@ void GoToPoseNode::tick() {
   told_ = std::chrono::steady_clock::now();
   publishFeedback(now);
   publishStatus();
+}
+
+void GoToPoseNode::timeWentBack(double seconds) {
+  if (finished_) return;
+  ROS_WARN_STREAM("ROS time went back by " << seconds << " s: tf is cleared, the goal aborted");
+  abortAll("ROS time went back");
 }
 
 // A drive that goes on is paused by the driver, and resumed by hand. Between drives nobody but this node knows that there is
@@ -236,12 +242,9 @@ void GoToPoseNode::abortAll(const std::string& reason) {
   carryOutOrders();
 }
 
-void GoToPoseNode::noteVehicle(const ros::Time& now) {
+void GoToPoseNode::noteVehicle() {
   try {
-    vehicle_ = transforms_
-                   .recentPoseOf(frameName(options_.base_frame), frameName(options_.map_frame), now,
-                                 options_.tf_timeout)
-                   .pose;
+    vehicle_ = transforms_.placeVehicle(placingInMap()).level();
     navigator_.moved(*vehicle_);
   } catch (const TransformError&) {
     vehicle_.reset();  // the planner and the driver say why, where they need it
@@ -263,9 +266,9 @@ void GoToPoseNode::onDriveFeedback(const NavigatePathFeedback& feedback) {
   carryOutOrders();
 }
 
-void GoToPoseNode::onDriveEnd(const std::string& status, const std::string& message) {
+void GoToPoseNode::onDriveEnd(const DriverAnswer& answer) {
   driver_heeds_joystick_ = false;
-  navigator_.driveEnded(status, message, seconds());
+  navigator_.driveEnded(answer.status, answer.message, seconds());
   carryOutOrders();
 }
 

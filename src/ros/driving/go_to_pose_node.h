@@ -39,12 +39,13 @@
 #include "grid_path_planner/GoToStatus.h"
 #include "grid_path_planner/NavigatePathAction.h"
 #include "grid_path_planner/PlanPathAction.h"
+#include "ros/driving/go_to_messages.h"
 #include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/move_base_action.h"
 #include "ros/guard/action/action_caller.h"
-#include "ros/guard/clock.h"
 #include "ros/guard/guarded_queue.h"
 #include "ros/guard/master/command_claim.h"
+#include "ros/guard/node_time.h"
 #include "ros/input/frame_lookup.h"
 #include "ros/input/manual_control.h"
 
@@ -100,10 +101,12 @@ class GoToPoseNode {
   void locate();
 
   void tick();
-  void noteVehicle(const ros::Time& now);
+  void timeWentBack(double seconds);
+  Placing placingInMap() const;
+  void noteVehicle();
   void onPlan(const PlanPathResult& result);
   void onDriveFeedback(const NavigatePathFeedback& feedback);
-  void onDriveEnd(const std::string& status, const std::string& message);
+  void onDriveEnd(const DriverAnswer& answer);
 
   void carryOutOrders();
   void tryToCarryOut(const Order& order);
@@ -126,8 +129,7 @@ class GoToPoseNode {
   GoToPoseOptions options_;
   const CommandClaim commands_;
   FrameTransforms transforms_;
-  ClockWatch clock_;
-  ros::Time started_;
+  NodeTime& time_;
   following::Navigator navigator_;
   std::optional<Goal> goal_;
   std::string last_sentence_ = "no goal has come yet";
@@ -152,6 +154,7 @@ class GoToPoseNode {
   ros::SteadyTimer timer_;
   ros::SteadyTimer diagnostics_timer_;
   std::unique_ptr<Reconfigurable<GoToPoseConfig, GoToPoseOptions>> reconfigurable_;
+  std::shared_ptr<void> on_jump_back_;
 };
 
 }  // namespace grid_path_planner::nodes

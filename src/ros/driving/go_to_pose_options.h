@@ -4,11 +4,13 @@
 #include <string>
 
 #include "following/go_to/navigator_options.h"
+#include "ros/messages/zero_heading.h"
 
 namespace grid_path_planner::nodes {
 
 struct GoToPoseOptions {
   std::string action_name = "move_base";
+  ZeroHeading zero_heading = ZeroHeading::REFUSED;
   following::NavigatorOptions navigator;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
@@ -23,6 +25,7 @@ void visitOptions(GoToPoseOptions& o, Visitor&& visit) {
                          "read at the start",
                          ""}
             .under("Who asks"));
+  visitZeroHeading(o.zero_heading, visit);
   visitOptions(o.navigator, visit);
   visit("map_frame", o.map_frame,
         base::OptionInfo{"Frame of the planner's map, into which goals are transformed once", ""}
@@ -30,9 +33,10 @@ void visitOptions(GoToPoseOptions& o, Visitor&& visit) {
   visit("base_frame", o.base_frame,
         base::OptionInfo{"Frame of the vehicle, whose pose tf gives", ""});
   visit("tf_timeout", o.tf_timeout,
-        base::OptionInfo{"How long a goal in another frame waits for tf, by the wall clock, before "
-                         "it is aborted, and how old the vehicle's pose may be",
-                         "s", 0.01, 3600.0});
+        base::OptionInfo{
+            "How old a transform of the vehicle or of a goal in another frame may be, "
+            "and how long such a goal waits for one, by the wall clock, before it is aborted",
+            "s", 0.01, 3600.0});
   visit("server_timeout", o.server_timeout,
         base::OptionInfo{"A planner or driver that has been silent for so long, by the wall clock, "
                          "is taken to be gone; longer than either takes to be started again",

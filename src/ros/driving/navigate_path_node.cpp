@@ -11,12 +11,15 @@
 
 #include "base/current_error.h"
 #include "grid_path_planner/NavigatePathConfig.h"
+#include "grid_path_planner/path/waypoint_file.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/driving/follow_log.h"
 #include "ros/guard/guarded_queue.h"
 #include "ros/guard/incoming/advertised_service.h"
 #include "ros/guard/incoming/claimed_lengths.h"
 #include "ros/guard/parameters.h"
 #include "ros/guard/scheduling/guarded_timer.h"
+#include "ros/guard/scheduling/log_throttle.h"
 #include "ros/messages/waypoint_reading.h"
 
 namespace grid_path_planner::nodes {
@@ -61,6 +64,23 @@ Commands commandsOf(const ros::NodeHandle& nh, const NavigatePathOptions& option
   return commands;
 }
 
+// Beyond what a map may hold: in the frame of such a path no vehicle is driven.
+bool isFar(const Eigen::Vector3d& position) {
+  return position.cwiseAbs().maxCoeff() > path::kLargestCoordinate;
+}
+
+bool isFar(const Path& path) {
+  return std::any_of(path.poses.begin(), path.poses.end(),
+                     [](const path::Pose& pose) { return isFar(pose.position); });
+}
+
+bool isFar(const nav_msgs::Path& path) {
+  return std::any_of(path.poses.begin(), path.poses.end(), [](const auto& stamped) {
+    const geometry_msgs::Point& at = stamped.pose.position;
+    return isFar({at.x, at.y, at.z});
+  });
+}
+
 bool isDriven(FollowState state) {
   return state == FollowState::DRIVING || state == FollowState::PAUSED ||
          state == FollowState::BLOCKED;
@@ -76,6 +96,7 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
       file_(fileOf(options_, files)),
       commands_(private_nh.getNamespace(), commandsOf(nh_, options_)),
       transforms_(nh),
+      time_(NodeTime::of(nh)),
       action_(nh, "navigate_path", false),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   waypoint_publisher_ = nh_.advertise<geometry_msgs::PoseStamped>("current_waypoint", 1, true);
@@ -91,10 +112,12 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
   commands_.refuseSimultaneous();
   reconfigurable_ = std::make_unique<Reconfigurable<NavigatePathConfig, NavigatePathOptions>>(
       private_nh, options_, [this](const NavigatePathOptions& options) { use(options); });
+  on_jump_back_ = time_.onJumpBack([this](double seconds) { timeWentBack(seconds); });
   startTimers();
 }
 
 NavigatePathNode::~NavigatePathNode() {
+  on_jump_back_.reset();
   clock_timer_.stop();
   feedback_timer_.stop();
   diagnostics_timer_.stop();
@@ -124,7 +147,6 @@ DriveLoop::Listener NavigatePathNode::listener() {
   return {[this] { callLater([this] { takeReports(); }); },
           [this](unsigned handovers) {
             callLater([this, handovers] {
-              watchClock();
               handovers_ = std::max(handovers_, handovers);
               endWhatIsNotDriven(kTakenOver);
             });
@@ -153,7 +175,7 @@ void NavigatePathNode::startTimers() {
   diagnostics_.add("path following", this, &NavigatePathNode::diagnose);
   diagnostics_.add("map", this, &NavigatePathNode::diagnoseMap);
   diagnostics_.add("other nodes", this, &NavigatePathNode::diagnoseOthers);
-  clock_timer_ = guardedTimer(nh_, kClockPeriod, [this] { watchClock(); });
+  clock_timer_ = guardedTimer(nh_, kClockPeriod, [this] { waitForTime(); });
   feedback_timer_ = guardedTimer(nh_, kFeedbackPeriod, [this] { publishFeedback(); });
   // force_update: the updater's own clock is ROS time, which may jump back.
   diagnostics_timer_ =
@@ -172,28 +194,30 @@ void NavigatePathNode::use(NavigatePathOptions options) {
   options_ = options;
 }
 
-// The first time, and time that jumped back: only then is it known which paths are from before.
-void NavigatePathNode::watchClock() {
-  if (!clock_.hasTime()) {
+// Only then is it known which paths are from before.
+void NavigatePathNode::waitForTime() {
+  if (!time_.isThere()) {
     waits_for_clock_ = true;
     return;
   }
   if (std::exchange(waits_for_clock_, false)) ROS_INFO("/clock is there");
-  const std::optional<double> back = clock_.jumpedBack();
-  const ros::Time now = ros::Time::now();  // after it: of the time that it says
-  if (back) {
-    ROS_WARN_STREAM("ROS time went back by " << *back
-                                             << " s: tf is cleared and the drive cancelled");
-    started_ = now;
-    endWhatIsNotDriven("ROS time went back");
-    given_goals_.timeWentBack();
-  }
-  if (started_.isZero()) startDriving(now);
+  if (fileWaits()) return;
+  clock_timer_.stop();
+  startDriving();
 }
 
-void NavigatePathNode::startDriving(const ros::Time& now) {
-  started_ = now;
-  if (!options_.follow_latched) given_goals_.endAllUntil(now);  // of a driver that was there before
+// A drive that began while time went back is of a path from before, too.
+void NavigatePathNode::timeWentBack(double seconds) {
+  ROS_WARN_STREAM("ROS time went back by " << seconds
+                                           << " s: tf is cleared and the drive cancelled");
+  loop_->abandon("ROS time went back");
+  endWhatIsNotDriven("ROS time went back");
+  given_goals_.timeWentBack();
+}
+
+void NavigatePathNode::startDriving() {
+  // Of a driver that was there before.
+  if (!options_.follow_latched) given_goals_.endAllUntil(ros::Time::now());
   if (options_.config_filename.empty()) {
     path_subscriber_ = subscribeChecked<nav_msgs::Path>(
         nh_, "path", 1, [this](const nav_msgs::Path& path) { onPath(path); });
@@ -213,14 +237,49 @@ void NavigatePathNode::drive(const Path& path, Join join, unsigned handovers) {
   if (transforms_.movesWith(vehicle, path.frame_id))
     throw InputError("the path is in the frame '" + path.frame_id + "', which moves with '" +
                      vehicle + "': nobody arrives there");
-  drive_ = loop_->start(path, join, handovers);
+  try {
+    drive_ = loop_->start(isFar(path) ? transforms_.place(path, placing()) : path, join, handovers);
+  } catch (const TransformError& error) {
+    throw InputError(error.what());
+  }
+}
+
+Placing NavigatePathNode::placing() const {
+  return {options_.map_frame, options_.tf_timeout, Moving::WITH_VEHICLE, options_.base_frame,
+          options_.zero_heading};
+}
+
+// In its own frame, so that no correction of the map's moves it; in the map's where that is as far away as utm.
+Path NavigatePathNode::pathOf(const nav_msgs::Path& message) const {
+  Placing by = placing();
+  by.map_frame = options_.map_frame;
+  if (!isFar(message)) by.into = frameInMap(message.header.frame_id, options_.map_frame);
+  try {
+    return transforms_.place(message, by);
+  } catch (const TransformError& error) {
+    throw InputError(error.what());
+  }
+}
+
+// Of a file that is driven in the map's frame: whether tf does not lead there yet.
+bool NavigatePathNode::fileWaits() {
+  if (!isFar(file_)) return false;
+  try {
+    file_ = transforms_.place(file_, placing());
+  } catch (const TransformError& error) {
+    static LogThrottle seldom(10.0);
+    ROS_WARN_STREAM_COND(seldom.isDue(), "The waypoints of " << options_.config_filename
+                                                             << " wait for tf: " << error.what());
+    return true;
+  } catch (const InputError&) {  // whoever drives it is told
+  }
+  return false;
 }
 
 void NavigatePathNode::onPath(const nav_msgs::Path& message) {
-  watchClock();
-  const std::string why = whyOfAnotherTime(message.header.stamp, started_, "navigate_path");
-  if (!message.poses.empty() && !why.empty() && !options_.follow_latched) {
-    ROS_WARN_STREAM("A path stamped " << message.header.stamp << " is not driven: " << why
+  const auto problem = time_.problemWith(message.header.stamp);
+  if (!message.poses.empty() && problem && !options_.follow_latched) {
+    ROS_WARN_STREAM("A path stamped " << message.header.stamp << " is not driven: " << *problem
                                       << " (~follow_latched drives it all the same)");
     return;
   }
@@ -238,7 +297,7 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   try {
-    drive(pathIn(message), Join::NEAREST, handovers_);
+    drive(pathOf(message), Join::NEAREST, handovers_);
     given_goals_.drive(message);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
@@ -259,7 +318,7 @@ void NavigatePathNode::onGoal() {
             throw InputError("a goal must give a path or a filename, got both");
           if (goal->path.poses.empty())
             throw InputError("a goal must give a path of at least one waypoint, or a filename");
-          return pathIn(goal->path);
+          return pathOf(goal->path);
         },
         Join::NEAREST, handovers_);
   }
@@ -267,15 +326,14 @@ void NavigatePathNode::onGoal() {
 }
 
 void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join, unsigned handovers) {
-  watchClock();
   try {
     drive(read(), join, handovers);
     given_goals_.endAllUntil(ros::Time::now());
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
-    finishGoal("INVALID_REQUEST", error.what(), loop_->standing());
+    finishGoal(DriveStatus::INVALID_REQUEST, error.what(), loop_->standing());
   } catch (...) {
-    finishGoal("INVALID_REQUEST", "the goal was given up: " + currentErrorText(),
+    finishGoal(DriveStatus::INVALID_REQUEST, "the goal was given up: " + currentErrorText(),
                loop_->standing());
   }
 }
@@ -304,7 +362,7 @@ void NavigatePathNode::replaceGoal() {
   loop_->abandon(reason);
   takeReports();
   goal_is_read_ = false;
-  if (goal_active_) finishGoal("CANCELLED", reason, loop_->standing());
+  if (goal_active_) finishGoal(DriveStatus::CANCELLED, reason, loop_->standing());
 }
 
 void NavigatePathNode::onPreempt() {
@@ -324,7 +382,6 @@ NavigatePathNode::Answer NavigatePathNode::cancelByHand() {
 
 // Whether there was a goal whose file is still read.
 bool NavigatePathNode::endDrivesUntilNow(const std::string& reason) {
-  watchClock();  // that a time of a moment, far ahead, is known to have gone back
   takeReports();
   return endWhatIsNotDriven(reason);
 }
@@ -345,7 +402,7 @@ void NavigatePathNode::takeReports() {
     if (report.event->kind != FollowEvent::Kind::ENDED || report.drive != drive_) continue;
     if (report.standing.status == DriveStatus::ARRIVED) given_goals_.end();
     if (goal_active_ && !goal_is_read_)
-      finishGoal(toString(report.standing.status), report.standing.message, report.standing);
+      finishGoal(report.standing.status, report.standing.message, report.standing);
   }
 }
 
@@ -354,22 +411,22 @@ void NavigatePathNode::takeReports() {
 bool NavigatePathNode::endWhatIsNotDriven(const std::string& reason) {
   given_goals_.endAllUntil(ros::Time::now());
   if (!std::exchange(goal_is_read_, false) || !goal_active_) return false;
-  finishGoal("CANCELLED", reason, loop_->standing());
+  finishGoal(DriveStatus::CANCELLED, reason, loop_->standing());
   return true;
 }
 
-void NavigatePathNode::finishGoal(const std::string& status, const std::string& message,
+void NavigatePathNode::finishGoal(DriveStatus status, const std::string& message,
                                   const DriveStanding& standing) {
   NavigatePathResult result;
-  result.status = status;
+  result.status = toString(status);
   result.message = message;
   result.missed_waypoints.assign(standing.missed.begin(), standing.missed.end());
   result.position_error_m = standing.position_error;
   result.yaw_error_rad = standing.yaw_error;
   goal_active_ = false;
-  if (status == "ARRIVED")
+  if (status == DriveStatus::ARRIVED)
     action_.setSucceeded(result, message);
-  else if (status == "CANCELLED" && action_.isPreemptRequested())
+  else if (status == DriveStatus::CANCELLED && action_.isPreemptRequested())
     action_.setPreempted(result, message);
   else
     action_.setAborted(result, message);
@@ -380,7 +437,7 @@ void NavigatePathNode::publishFeedback() {
   if (!goal_active_ || goal_is_read_) return;
   const DriveStanding standing = loop_->standing();
   if (!isDriven(standing.state))  // where there was no memory to report its end
-    return finishGoal(toString(standing.status), standing.message, standing);
+    return finishGoal(standing.status, standing.message, standing);
   NavigatePathFeedback feedback;
   feedback.current_waypoint = static_cast<std::uint32_t>(standing.waypoint);
   feedback.distance_remaining_m = standing.distance_remaining;

@@ -46,11 +46,11 @@
 #include "ros/driving/drive_loop.h"
 #include "ros/driving/map_watch.h"
 #include "ros/driving/navigate_path_options.h"
-#include "ros/guard/clock.h"
 #include "ros/guard/master/command_claim.h"
 #include "ros/guard/master/master_watch.h"
 #include "ros/guard/master/other_commanders.h"
 #include "ros/guard/node_files.h"
+#include "ros/guard/node_time.h"
 #include "ros/input/frame_lookup.h"
 #include "ros/input/given_goals.h"
 #include "ros/messages/navigate_path_action.h"
@@ -86,16 +86,16 @@ class NavigatePathNode {
   void startAction();
   void startTimers();
   void use(NavigatePathOptions options);
-  void watchClock();
-  void startDriving(const ros::Time& now);
+  void waitForTime();
+  void startDriving();
+  void timeWentBack(double seconds);
   // `handovers`: handovers_ when it was given. Throws InputError.
   void drive(const path::Path& path, following::Join join, unsigned handovers);
 
   void onPath(const nav_msgs::Path& message);
-  path::Path pathIn(const nav_msgs::Path& message) const {
-    return transforms_.pathIn(message, options_.base_frame, options_.map_frame,
-                              options_.tf_timeout);
-  }
+  Placing placing() const;
+  path::Path pathOf(const nav_msgs::Path& message) const;
+  bool fileWaits();
   void onGoal();
   void replaceGoal();
   void onPreempt();
@@ -108,7 +108,7 @@ class NavigatePathNode {
   void takeReports();
   void takeLastReports() noexcept;
   bool endWhatIsNotDriven(const std::string& reason);
-  void finishGoal(const std::string& status, const std::string& message,
+  void finishGoal(following::DriveStatus status, const std::string& message,
                   const DriveStanding& standing);
   void publishFeedback();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -124,8 +124,7 @@ class NavigatePathNode {
   OtherCommanders others_{commands_};
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   FrameTransforms transforms_;
-  ClockWatch clock_;
-  ros::Time started_;
+  NodeTime& time_;
   bool waits_for_clock_ = false;
   bool goal_active_ = false;
   unsigned goals_ = 0;         // accepted so far
@@ -142,11 +141,12 @@ class NavigatePathNode {
   std::vector<ros::ServiceServer> services_;
   NavigatePathServer action_;
   diagnostic_updater::Updater diagnostics_;
-  ros::SteadyTimer clock_timer_;
+  ros::SteadyTimer clock_timer_;  // until there is a time
   ros::SteadyTimer feedback_timer_;
   ros::SteadyTimer diagnostics_timer_;
   std::unique_ptr<Reconfigurable<NavigatePathConfig, NavigatePathOptions>> reconfigurable_;
   std::unique_ptr<base::TaskQueue> reader_;  // of waypoint files
+  std::shared_ptr<void> on_jump_back_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -6,6 +6,7 @@
 #include "grid_path_planner/following/follower_options.h"
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "ros/guard/scheduling/realtime_priority.h"
+#include "ros/messages/zero_heading.h"
 
 namespace grid_path_planner::nodes {
 
@@ -13,11 +14,13 @@ struct NavigatePathOptions {
   std::string config_filename;
   bool join_nearest = false;
   bool follow_latched = false;
+  ZeroHeading zero_heading = ZeroHeading::REFUSED;
   following::FollowerOptions follower;
   bool check_map = true;
   following::ClearanceLimits limits;
-  std::string check_footprint;  // "[[x, y], ...]", m; "": check_radius alone
-  double map_timeout = 3.0;     // s, wall time
+  std::string check_footprint;    // "[[x, y], ...]", m; "": check_radius alone
+  double map_timeout = 3.0;       // s, wall time
+  double map_data_timeout = 3.0;  // s
   std::string map_frame = "map";
   bool use_speed_limit = false;
   std::string base_frame = "base_link";
@@ -60,6 +63,14 @@ void visitMapOptions(NavigatePathOptions& o, Visitor&& visit) {
             "The vehicle stands while a map that has had a heartbeat has been without one for so "
             "long, by the wall clock; above the heartbeat_period of projected_map",
             "s", 0.1, 3600.0});
+  visit("map_data_timeout", o.map_data_timeout,
+        base::OptionInfo{
+            "The vehicle stands while the newest cloud or scan in a map that has a heartbeat is "
+            "older; "
+            "above the time between two clouds, and what they take to be mapped. At least so long "
+            "another publisher that sends maps again and again may have sent none while it was "
+            "driven",
+            "s", 0.1, 3600.0});
   visit("map_frame", o.map_frame,
         base::OptionInfo{"Frame of paths and maps whose header names none", ""});
   visit("use_speed_limit", o.use_speed_limit,
@@ -82,6 +93,7 @@ void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
   visit("follow_latched", o.follow_latched,
         base::OptionInfo{
             "Whether a path stamped before the node started is driven too, however old it is", ""});
+  visitZeroHeading(o.zero_heading, visit);
   visitOptions(o.follower, visit);
   visitMapOptions(o, visit);
   visit(

@@ -1,19 +1,23 @@
 #include "ros/input/frame_lookup.h"
 
 #include <ros/console.h>
-#include <tf2_geometry_msgs/tf2_geometry_msgs.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 #include <thread>
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
-#include "grid_path_planner/ros/conversions.h"
+#include "grid_path_planner/path/headings.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/guard/clock.h"
+#include "ros/input/foreign_rules.h"
+#include "ros/messages/pose_reading.h"
 
 namespace grid_path_planner::nodes {
 
@@ -26,17 +30,17 @@ using path::Pose;
 
 namespace {
 
-Pose poseOfTransform(const geometry_msgs::Transform& transform) {
-  const auto& position = transform.translation;
-  return Pose{{position.x, position.y, position.z}, yawOf(transform.rotation)};
+// s, that localization stamps ahead so that nobody waits for it, and clocks of nodes may differ by.
+constexpr double kMostAheadOfStanding = 10.0;
+
+// That of the x axis in the horizontal plane.
+double yawOf(const Eigen::Matrix3d& rotation) {
+  return std::atan2(rotation(1, 0), rotation(0, 0));
 }
 
-std::string sentence(const std::string& target, const std::string& source, const ros::Time& stamp,
-                     const std::string& reason) {
+std::string ageText(double seconds) {
   std::ostringstream text;
-  text << "no transform from " << source << " to " << target;
-  if (!stamp.isZero()) text << " at " << stamp;
-  text << ": " << reason;
+  text << std::fixed << std::setprecision(1) << seconds << " s";
   return text.str();
 }
 
@@ -104,10 +108,8 @@ std::string reasonOf(const tf2_ros::Buffer& buffer, const std::string& target,
   const auto oldest = oldestBetween(buffer, source, target);
   const double age = oldest ? secondsBetween(oldest->header.stamp, ros::Time::now()) : 0.0;
   if (age < kOld) return otherwise;
-  std::ostringstream text;
-  text << "the newest from " << oldest->child_frame_id << " to " << oldest->header.frame_id
-       << " is " << std::fixed << std::setprecision(1) << age << " s old";
-  return text.str();
+  return "the newest from " + oldest->child_frame_id + " to " + oldest->header.frame_id + " is " +
+         ageText(age) + " old";
 }
 
 // Says once that something waits for tf: with a long limit nobody would know why nothing happens.
@@ -125,57 +127,170 @@ class LongWait {
   bool told_ = false;
 };
 
-}  // namespace
-
-Pose FrameLookup::poseIn(const std::string& frame, const geometry_msgs::PoseStamped& pose,
-                         const std::string& map_frame, double limit, const StopToken& stop) const {
-  const std::string source = frameInMap(pose.header.frame_id, map_frame);
-  const Pose level = poseFromMessage(pose.pose);
-  if (source == frame) return level;
-  const auto transform = waitFor(frame, source, pose.header.stamp, limit, stop);
-  geometry_msgs::PoseStamped moved;
-  tf2::doTransform(pose, moved, transform);
-  Pose result;
-  result.position = {moved.pose.position.x, moved.pose.position.y, moved.pose.position.z};
-  result.yaw = yawOf(moved.pose.orientation);
-  return result;
-}
-
-Pose FrameLookup::poseOf(const std::string& vehicle, const std::string& frame, double limit,
-                         const StopToken& stop, std::optional<double> max_age) const {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
-  const std::string source = frameName(vehicle);
-  const auto latest = waitFor(frame, source, ros::Time(0), limit, stop);
+// Tries again until it has a transform, `by` has waited, or is stopped.
+Placed waited(const Placing& by, const std::function<Placed()>& now) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(by.wait);
   LongWait wait;
-  while (max_age) {
+  while (true) {
     try {
-      return recentPoseOf(source, frame, ros::Time::now(), *max_age).pose;
+      return now();
     } catch (const TransformError& error) {
       if (std::chrono::steady_clock::now() >= end) throw;
       wait.tell(error.what());
     }
-    if (stop.reason() != StopReason::NONE) throw Stopped(stop.reason());
+    if (by.stop.reason() != StopReason::NONE) throw Stopped(by.stop.reason());
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return poseOfTransform(latest.transform);
 }
 
-geometry_msgs::TransformStamped FrameLookup::waitFor(const std::string& target,
-                                                     const std::string& source,
-                                                     const ros::Time& stamp, double limit,
-                                                     const StopToken& stop) const {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
-  LongWait wait;
-  while (true) {
+std_msgs::Header headerOf(const std::string& frame, const ros::Time& stamp) {
+  std_msgs::Header header;
+  header.frame_id = frame;
+  header.stamp = stamp;
+  return header;
+}
+
+std::string sourceOf(const std_msgs::Header& header, const Placing& by) {
+  return frameInMap(header.frame_id, by.map_frame.empty() ? by.into : by.map_frame);
+}
+
+// Throws InputError.
+Pose poseOf(const geometry_msgs::Pose& message, const Placed& frame, const Placing& by) {
+  static ToldOnce told;
+  const PoseReading read = readPose(message, by.zero_heading);
+  ROS_WARN_STREAM_COND(read.told && told.isNew(read.told),
+                       "A pose that was given to this node: " << read.told);
+  Pose pose = read.pose;
+  if (!frame.pose.matrix().isIdentity(0.0)) {
+    const auto& q = message.orientation;
+    const Eigen::Quaterniond turn(q.w, q.x, q.y, q.z);
+    pose.position = frame.pose * pose.position;
+    if (!std::isnan(pose.yaw))
+      pose.yaw = yawOf(frame.pose.linear() * turn.normalized().toRotationMatrix());
+  }
+  checkCoordinates(pose.position);
+  return pose;
+}
+
+}  // namespace
+
+Eigen::Isometry3d isometryOf(const geometry_msgs::Transform& transform) {
+  const auto& t = transform.translation;
+  const auto& q = transform.rotation;
+  return Eigen::Translation3d(t.x, t.y, t.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+}
+
+Pose Placed::level() const {
+  return {pose.translation(), yawOf(pose.linear())};
+}
+
+Placed FrameLookup::place(const std_msgs::Header& header, const Placing& by) const {
+  const std::string source = sourceOf(header, by);
+  if (source == by.into) return {};
+  return waited(by, [&] { return placedNow(source, header.stamp, by); });
+}
+
+Placed FrameLookup::placeVehicle(const Placing& by) const {
+  return place(headerOf(by.vehicle, ros::Time()), by);
+}
+
+Pose FrameLookup::place(const geometry_msgs::PoseStamped& pose, const Placing& by) const {
+  readPose(pose.pose, by.zero_heading);  // one that is none waits for nothing
+  return poseOf(pose.pose, place(pose.header, by), by);
+}
+
+std::vector<Eigen::Vector3d> FrameLookup::place(std::vector<Eigen::Vector3d> points,
+                                                const std_msgs::Header& header,
+                                                const Placing& by) const {
+  if (sourceOf(header, by) == by.into) return points;
+  const Placed frame = place(header, by);
+  for (Eigen::Vector3d& point : points) {
+    point = frame.pose * point;
+    if (!point.allFinite())
+      throw TransformError("the transform from " + header.frame_id + " to " + by.into +
+                           " leads beyond all numbers");
+  }
+  return points;
+}
+
+Path FrameLookup::place(const nav_msgs::Path& message, const Placing& by) const {
+  const std::string frame = sourceOf(message.header, by);
+  if (!buffer_._frameExists(frame) && buffer_._frameExists(by.vehicle))
+    throw InputError("the frame '" + frame + "' is not known to tf");
+  const Placed of_path = place(message.header, by);
+  Path path;
+  path.frame_id = by.into;
+  path.poses.reserve(message.poses.size());
+  for (const geometry_msgs::PoseStamped& pose : message.poses) {
+    const std::string number = "pose " + std::to_string(path.poses.size() + 1) + " of the path";
+    const std::string own = frameInMap(pose.header.frame_id, frame);
     try {
-      return transform(target, source, stamp);
+      path.poses.push_back(own == frame ? poseOf(pose.pose, of_path, by) : place(pose, by));
     } catch (const TransformError& error) {
-      const std::string why = sentence(target, source, stamp, error.what());
-      if (std::chrono::steady_clock::now() >= end) throw TransformError(why);
-      wait.tell(why);
+      throw InputError(number + " cannot be transformed from '" + own + "' to '" + by.into +
+                       "': " + error.what());
+    } catch (const InputError& error) {
+      throw InputError(number + ": " + error.what());
     }
-    if (stop.reason() != StopReason::NONE) throw Stopped(stop.reason());
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  path::lookAlongPath(path);
+  return path;
+}
+
+Path FrameLookup::place(Path path, const Placing& by) const {
+  const Placed frame = place(headerOf(path.frame_id, ros::Time()), by);
+  const double turn = yawOf(frame.pose.linear());
+  for (Pose& pose : path.poses) {
+    if (turn != 0.0) pose.yaw = std::remainder(pose.yaw + turn, 2.0 * M_PI);
+    pose.position = frame.pose * pose.position;
+    checkCoordinates(pose.position);
+  }
+  path.frame_id = by.into;
+  return path;
+}
+
+Placed FrameLookup::placedNow(const std::string& frame, const ros::Time& stamp,
+                              const Placing& by) const {
+  const bool moves = by.moving == Moving::AT_STAMP ||
+                     (by.moving == Moving::WITH_VEHICLE && movesWith(by.vehicle, frame));
+  const ros::Time at = moves ? stamp : ros::Time();
+  const geometry_msgs::TransformStamped found = nearest(frame, at, by);
+  Placed placed{isometryOf(found.transform), found.header.stamp, 0.0};
+  if (placed.stamp.isZero()) return placed;
+  placed.age = secondsBetween(placed.stamp, ros::Time::now());
+  const double off = at.isZero() ? placed.age : secondsBetween(placed.stamp, at);
+  const double most_ahead = moves ? by.max_age : std::max(by.max_age, kMostAheadOfStanding);
+  if (off <= by.max_age && -off <= most_ahead) return placed;
+  const std::string what = frame == by.vehicle ? "the pose of " + frame + " in "
+                                               : "the transform from " + frame + " to ";
+  throw TransformError(
+      what + by.into + " is " +
+      (off > 0.0 ? ageText(off) + " old" : "stamped " + ageText(-off) + " ahead") +
+      (at.isZero() ? "" : " at the stamp"));
+}
+
+// The transform at `stamp`; the newest where that is 0, ahead of all that tf has, or as near to it as `by` asks for.
+geometry_msgs::TransformStamped FrameLookup::nearest(const std::string& frame,
+                                                     const ros::Time& stamp,
+                                                     const Placing& by) const {
+  try {
+    const geometry_msgs::TransformStamped newest = transform(by.into, frame);
+    const ros::Time& last = newest.header.stamp;
+    if (last.isZero() || stamp.isZero() || stamp >= last) return newest;
+    try {
+      return transform(by.into, frame, stamp);
+    } catch (const TransformError&) {
+      if (secondsBetween(stamp, last) <= by.max_age) return newest;
+      throw;
+    }
+  } catch (const TransformError& error) {
+    std::ostringstream text;
+    if (frame == by.vehicle)
+      text << "the pose of " << frame << " in " << by.into << " is not known";
+    else
+      text << "no transform from " << frame << " to " << by.into;
+    if (!stamp.isZero()) text << " at " << stamp;
+    throw TransformError(text.str() + ": " + error.what());
   }
 }
 
@@ -189,52 +304,6 @@ geometry_msgs::TransformStamped FrameLookup::transform(const std::string& target
   } catch (const std::runtime_error&) {  // roscpp's: times that are 2^31 s apart have no difference
     throw TransformError("its time is not within decades of those that /tf has");
   }
-}
-
-FrameLookup::RecentPose FrameLookup::recentPoseOf(const std::string& vehicle,
-                                                  const std::string& frame, const ros::Time& now,
-                                                  double max_age) const {
-  const std::string pose = "the pose of " + vehicle + " in " + frame;
-  geometry_msgs::TransformStamped found;
-  try {
-    found = transform(frame, vehicle);
-  } catch (const TransformError& error) {
-    throw TransformError(pose + " is not known: " + error.what());
-  }
-  if (found.header.stamp.isZero()) return {poseOfTransform(found.transform), 0.0};
-  const double age = secondsBetween(found.header.stamp, now);
-  if (std::abs(age) > max_age) throw TransformError(pose + " is " + std::to_string(age) + " s old");
-  return {poseOfTransform(found.transform), age};
-}
-
-void FrameLookup::checkKnown(const std::string& frame, const std::string& vehicle) const {
-  if (!buffer_._frameExists(frame) && buffer_._frameExists(vehicle))
-    throw InputError("the frame '" + frame + "' is not known to tf");
-}
-
-Path FrameLookup::pathIn(const nav_msgs::Path& message, const std::string& vehicle,
-                         const std::string& map_frame, double max_age) const {
-  const std::string frame = frameInMap(message.header.frame_id, map_frame);
-  checkKnown(frame, vehicle);
-  nav_msgs::Path path = message;
-  path.header.frame_id = frame;
-  for (std::size_t i = 0; i < path.poses.size(); ++i) {
-    geometry_msgs::PoseStamped& pose = path.poses[i];
-    const std::string own = frameName(pose.header.frame_id);
-    if (own.empty() || own == frame) continue;
-    try {
-      poseFromMessage(pose.pose);
-      checkNotOlder(frame, own, ros::Time::now(), max_age);
-      tf2::doTransform(pose.pose, pose.pose, transform(frame, own));
-    } catch (const TransformError& error) {
-      throw InputError("pose " + std::to_string(i + 1) +
-                       " of the path cannot be transformed from '" + own + "' to '" + frame +
-                       "': " + error.what());
-    } catch (const InputError& error) {
-      throw InputError("pose " + std::to_string(i + 1) + " of the path: " + error.what());
-    }
-  }
-  return pathFromMessage(path);
 }
 
 std::string FrameLookup::commonFrame(const std::string& one, const std::string& other) const {
@@ -266,38 +335,6 @@ bool FrameLookup::movesWith(const std::string& vehicle, const std::string& frame
     if (link.header.frame_id == vehicle) return true;
   }
   return false;
-}
-
-void FrameLookup::checkNotOlder(const std::string& to, const std::string& from,
-                                const ros::Time& now, double max_age) const {
-  if (from == to) return;
-  const ros::Time stamp = transform(to, from).header.stamp;
-  const double age = stamp.isZero() ? 0.0 : secondsBetween(stamp, now);
-  if (age > max_age)
-    throw TransformError("the transform from " + from + " to " + to + " is " + std::to_string(age) +
-                         " s old");
-}
-
-std::vector<Eigen::Vector3d> FrameLookup::pointsIn(const std::string& to, const std::string& from,
-                                                   std::vector<Eigen::Vector3d> points,
-                                                   const ros::Time& stamp) const {
-  if (from == to) return points;
-  try {
-    geometry_msgs::TransformStamped moving = transform(to, from);
-    if (!stamp.isZero() && stamp < moving.header.stamp) moving = transform(to, from, stamp);
-    for (Eigen::Vector3d& point : points) {
-      geometry_msgs::Point message;
-      message.x = point.x();
-      message.y = point.y();
-      message.z = point.z();
-      tf2::doTransform(message, message, moving);
-      point = {message.x, message.y, message.z};
-      if (!point.allFinite()) throw TransformError("it leads beyond all numbers");
-    }
-    return points;
-  } catch (const TransformError& error) {
-    throw TransformError("no transform from '" + from + "' to '" + to + "': " + error.what());
-  }
 }
 
 }  // namespace grid_path_planner::nodes

@@ -1,21 +1,25 @@
-// The one access to tf: poses, paths and points of one frame in another, with a sentence where tf
-// knows no transform.
+// The one door from a header to another frame: where what it bears is, or a sentence why tf does not say.
 //
 //   FrameTransforms transforms(nh);
-//   const Pose vehicle = transforms.poseOf("base_link", "map", limit, stop);
+//   Placing in_map{"map", 0.5, Moving::WITH_VEHICLE, "base_link"};
+//   in_map.wait = limit;                                     // s; 0: what tf knows at once
+//   const path::Pose goal = transforms.place(message, in_map);
+//   const path::Pose vehicle = transforms.placeVehicle(in_map).level();
 //
-// poseIn(), poseOf() and waitFor() wait for a transform: on the steady clock, so that a ROS clock that stands
-// still does not delay them, and they ask the stop token while they wait. The other functions
-// answer from what tf knows at once.
+// Every caller says how old the transform may be and whether the frame moves: nothing is placed by a transform that has
+// ceased. One of a frame that moves may be as much ahead, others by 10 s. Static transforms have no age. What waits does so
+// on the steady clock, so that a ROS clock that stands still does not delay it, and asks the stop token.
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
+#include <std_msgs/Header.h>
 #include <tf2_ros/buffer.h>
 
-#include <optional>
+#include <Eigen/Geometry>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -23,7 +27,9 @@
 
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/path/path.h"
+#include "ros/guard/node_time.h"
 #include "ros/input/transform_receiver.h"
+#include "ros/messages/zero_heading.h"
 
 namespace grid_path_planner::nodes {
 
@@ -33,62 +39,65 @@ class TransformError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// By which transform something is placed.
+enum class Moving {
+  NO,           // the newest: of a frame that stands, as odom and utm do
+  AT_STAMP,     // that at the stamp, 0: the newest: what a sensor measured
+  WITH_VEHICLE  // AT_STAMP in a frame that is fixed to `vehicle`, NO in others: what somebody asks for
+};
+
+struct Placing {
+  std::string into;      // a frame
+  double max_age = 0.0;  // s, from the transform to now, or to the stamp where that counts
+  Moving moving = Moving::AT_STAMP;
+  std::string vehicle = {};  // its frame
+  ZeroHeading zero_heading = ZeroHeading::REFUSED;
+  std::string map_frame = {};  // that of headers that name none; "": `into`
+  double wait = 0.0;           // s of the steady clock, for a transform that is new enough
+  base::StopToken stop = {};
+};
+
+Eigen::Isometry3d isometryOf(const geometry_msgs::Transform& transform);
+
+// Where a frame is in another one.
+struct Placed {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  ros::Time stamp;   // of the transform; 0: all of it is static
+  double age = 0.0;  // s, of the transform now; negative: stamped ahead
+
+  path::Pose level() const;  // position and yaw of what may tilt
+};
+
 // What a buffer of transforms knows, whoever fills it.
 class FrameLookup {
  public:
   tf2_ros::Buffer& buffer() { return buffer_; }
 
-  // `pose` in `frame`, at the pose's stamp (0: the latest); one without a frame is in `map_frame`. Throws InputError
-  // for what poseFromMessage refuses, TransformError, Stopped. `limit` in seconds.
-  path::Pose poseIn(const std::string& frame, const geometry_msgs::PoseStamped& pose,
-                    const std::string& map_frame, double limit, const base::StopToken& stop) const;
+  // All throw TransformError where tf has no transform, or none that is new enough, and Stopped. Names of frames that are
+  // none are an InputError.
+  Placed place(const std_msgs::Header& header, const Placing& by) const;
+  Placed placeVehicle(const Placing& by) const;  // the newest pose of by.vehicle
+  // Throws InputError for what readPose() refuses, and for a place beyond 1e6 m in by.into. The yaw is NaN where
+  // none is given and by.zero_heading says that any will do.
+  path::Pose place(const geometry_msgs::PoseStamped& pose, const Placing& by) const;
+  std::vector<Eigen::Vector3d> place(std::vector<Eigen::Vector3d> points,
+                                     const std_msgs::Header& header, const Placing& by) const;
+  // Poses that name another frame than the path are placed by their own headers. Throws InputError for a frame that tf
+  // does not know (while it knows by.vehicle), for such poses that have no place, and as above. Where no heading is given
+  // and any will do, the pose looks along the path.
+  path::Path place(const nav_msgs::Path& message, const Placing& by) const;
+  path::Path place(path::Path path, const Placing& by) const;  // of a file
 
-  // The latest pose of the frame `vehicle` in `frame`; with `max_age` one that is within so many
-  // seconds of now, which is waited for too. Throws TransformError, Stopped.
-  path::Pose poseOf(const std::string& vehicle, const std::string& frame, double limit,
-                    const base::StopToken& stop, std::optional<double> max_age = {}) const;
-
-  // The latest transform, or that at `stamp`. Throws TransformError with the reason: a frame that nothing names, a
-  // transform that has ceased, else tf2's.
+  // For what was measured at `stamp`; all else asks place(). 0: the latest, of any age. Throws TransformError with the
+  // reason: a frame that nothing names, a transform that has ceased, else tf2's.
   geometry_msgs::TransformStamped transform(const std::string& target, const std::string& source,
                                             const ros::Time& stamp = ros::Time(0)) const;
-
-  // The same, waited for up to `limit` seconds. Throws Stopped too.
-  geometry_msgs::TransformStamped waitFor(const std::string& target, const std::string& source,
-                                          const ros::Time& stamp, double limit,
-                                          const base::StopToken& stop) const;
-
-  struct RecentPose {
-    path::Pose pose;
-    double age;  // s; negative: stamped ahead; 0 where all of it is static
-  };
-  // The latest pose of `vehicle` in `frame`, if it is within `max_age` seconds of `now`. Throws
-  // TransformError for an older one, or none.
-  RecentPose recentPoseOf(const std::string& vehicle, const std::string& frame,
-                          const ros::Time& now, double max_age) const;
-
-  // The path in the frame of its header, `map_frame` where that names none; poses that name another frame are
-  // transformed. Throws InputError for a frame that tf does not know (while it knows `vehicle`), poses that cannot be
-  // transformed, or by a transform older than `max_age` seconds only, and what pathFromMessage refuses.
-  path::Path pathIn(const nav_msgs::Path& message, const std::string& vehicle,
-                    const std::string& map_frame, double max_age) const;
 
   // The frame by which tf joins the two: above both, or one of them; empty where nothing does.
   std::string commonFrame(const std::string& one, const std::string& other) const;
 
   // The frames by which tf leads from one to the other, both and commonFrame() included; none where nothing joins them.
   std::vector<std::string> framesBetween(const std::string& one, const std::string& other) const;
-
-  // Throws TransformError where what tf has between the two frames is older than `max_age` seconds at `now`. A static
-  // transform, and one stamped ahead, as localization does, are not.
-  void checkNotOlder(const std::string& to, const std::string& from, const ros::Time& now,
-                     double max_age) const;
-
-  // Points of the frame `from` in the frame `to`, by what was at `stamp`, or the latest where that is older, or `stamp` 0.
-  // Throws TransformError.
-  std::vector<Eigen::Vector3d> pointsIn(const std::string& to, const std::string& from,
-                                        std::vector<Eigen::Vector3d> points,
-                                        const ros::Time& stamp = ros::Time()) const;
 
   // Whether tf has `frame` fixed to the vehicle: its own frame, or one below it that no moving transform joins to it,
   // as a dock's is that its camera sees.
@@ -98,20 +107,25 @@ class FrameLookup {
   void clear() { buffer_.clear(); }
 
  private:
-  void checkKnown(const std::string& frame, const std::string& vehicle) const;
+  Placed placedNow(const std::string& frame, const ros::Time& stamp, const Placing& by) const;
+  geometry_msgs::TransformStamped nearest(const std::string& frame, const ros::Time& stamp,
+                                          const Placing& by) const;
 
   tf2_ros::Buffer buffer_;
 };
 
-// The same of /tf and /tf_static.
+// The same of /tf and /tf_static, cleared where ROS time goes back, before a callback of the queue of `nh` (a GuardedQueue)
+// begins.
 class FrameTransforms : public FrameLookup {
  public:
   // `hearer`: see TransformReceiver. Whoever wants to hear tf does so by this, not by a second
   // subscription.
   explicit FrameTransforms(const ros::NodeHandle& nh, TransformReceiver::Hearer hearer = {})
-      : receiver_(nh, buffer(), std::move(hearer)) {}
+      : on_jump_back_(NodeTime::of(nh).onJumpBack([this](double) { clear(); })),
+        receiver_(nh, buffer(), std::move(hearer)) {}
 
  private:
+  const std::shared_ptr<void> on_jump_back_;
   TransformReceiver receiver_;
 };
 

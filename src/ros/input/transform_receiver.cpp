@@ -26,6 +26,14 @@ double mostAhead() {
   return ros::Time::isSimTime() ? 10.0 : 4.0;
 }
 
+// A thousandth of a millionth more than 1 is half a centimetre in coordinates of utm. tf2 refuses what is farther off.
+void makeUnit(geometry_msgs::Quaternion& q) {
+  const double squared = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  if (!(std::abs(squared - 1.0) < 10e-3)) return;
+  const double length = std::sqrt(squared);
+  for (double* part : {&q.x, &q.y, &q.z, &q.w}) *part /= length;
+}
+
 }  // namespace
 
 TransformStamps::TransformStamps(double length)
@@ -45,7 +53,13 @@ void TransformStamps::giveBack(const std::string& child, const ros::Time& stamp)
 }
 
 TransformReceiver::TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer, Hearer hearer)
-    : buffer_(buffer), hearer_(std::move(hearer)), stamps_(buffer.getCacheLength().toSec()) {
+    : buffer_(buffer),
+      hearer_(std::move(hearer)),
+      stamps_(buffer.getCacheLength().toSec()),
+      on_jump_back_(guarded_.time().onJumpBack([this](double) {
+        buffer_.clear();
+        stamps_.clear();
+      })) {
   nh.setCallbackQueue(&guarded_);
   const auto subscribe = [&](const char* topic, bool is_static) {
     return subscribeBounded<tf2_msgs::TFMessage, const Event&>(
@@ -68,10 +82,6 @@ void TransformReceiver::receive(const tf2_msgs::TFMessage& message, const std::s
                                 bool is_static) {
   if (hearer_) hearer_(message, node, is_static);
   const ros::Time now = ros::Time::now();
-  if (now < std::exchange(latest_, now)) {
-    buffer_.clear();
-    stamps_.clear();
-  }
   static LogThrottle seldom(kWarningPeriod);
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     const std::string why = insertTransform(buffer_, stamps_, transform, node, is_static, now);
@@ -101,6 +111,7 @@ std::string insertTransform(tf2::BufferCore& buffer, TransformStamps& stamps,
         << " of " << node << " is dropped: it is not finite";
     return why.str();
   }
+  makeUnit(transform.transform.rotation);
   const std::string child = frameName(transform.child_frame_id);
   if (!is_static && !stamps.take(child, transform.header.stamp)) return "";
   try {

@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 
@@ -68,9 +69,9 @@ class TransformReceiver {
   tf2_ros::Buffer& buffer_;
   const Hearer hearer_;
   TransformStamps stamps_;
-  ros::Time latest_;
   ros::CallbackQueue queue_;
   GuardedQueue guarded_{queue_};
+  const std::shared_ptr<void> on_jump_back_;
   ros::Subscriber moving_, static_;
   ros::AsyncSpinner spinner_{1, &queue_};
 };

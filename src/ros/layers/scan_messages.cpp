@@ -6,6 +6,7 @@
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "ros/input/frame_lookup.h"
 
 namespace grid_path_planner::nodes {
 
@@ -24,12 +25,6 @@ float farthestOf(const sensor_msgs::LaserScan& scan) {
 
 bool isHit(float measured, const sensor_msgs::LaserScan& scan) {
   return measured > 0.0F && measured >= scan.range_min && measured < farthestOf(scan);
-}
-
-Eigen::Isometry3d isometryOf(const geometry_msgs::Transform& transform) {
-  const auto& t = transform.translation;
-  const auto& q = transform.rotation;
-  return Eigen::Translation3d(t.x, t.y, t.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
 }
 
 }  // namespace

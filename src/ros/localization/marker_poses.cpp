@@ -14,7 +14,6 @@ namespace grid_path_planner::nodes {
 using base::InputError;
 using base::StopToken;
 using Eigen::Isometry3d;
-using localization::Mounting;
 using localization::PoseCovariance;
 using vision::GreyImage;
 using vision::MarkerFix;
@@ -24,15 +23,6 @@ namespace {
 
 constexpr double kFarthest = 1e6;  // m
 
-Mounting mountingOf(const geometry_msgs::Transform& t) {
-  return {{t.translation.x, t.translation.y, t.translation.z},
-          {t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z}};
-}
-
-Isometry3d isometryOf(const Mounting& pose) {
-  return Eigen::Translation3d(pose.position) * pose.rotation.normalized();
-}
-
 // The optical frame of the image in the vehicle's, of which tf says the newest that it knows: it is fixed.
 Isometry3d baseFromCamera(const MarkerImage& image, const FrameTransforms& transforms,
                           const StopToken& stop) {
@@ -41,25 +31,27 @@ Isometry3d baseFromCamera(const MarkerImage& image, const FrameTransforms& trans
   const std::string frame = frameName(image.message->header.frame_id);
   if (frame.empty()) throw InputError("it names no frame");
   if (frame == o.base_frame) return Isometry3d::Identity();
-  const Mounting mounting = mountingOf(
-      transforms.waitFor(o.base_frame, frame, ros::Time(0), o.prediction_wait, stop).transform);
-  localization::checkMounting(mounting);
+  const Isometry3d mounting = mountingIn(transforms, o.base_frame, frame, o.prediction_wait, stop);
+  localization::checkMounting({mounting.translation(), Eigen::Quaterniond(mounting.linear())});
   // Through the map it would be where tf has the vehicle, and confirm whatever that is.
   checkOnVehicle(transforms, o.base_frame, frame, {o.map_frame, o.odom_frame});
-  return isometryOf(mounting);
+  return mounting;
 }
 
 // tf at the image's stamp. Throws TransformError, InputError for a place out of this world.
 Isometry3d mapFromBase(const MarkerImage& image, const FrameTransforms& transforms,
                        const StopToken& stop) {
   const MarkerLocalizerOptions& o = image.options;
-  const Mounting pose = mountingOf(
-      transforms
-          .waitFor(o.map_frame, o.base_frame, image.message->header.stamp, o.prediction_wait, stop)
-          .transform);
-  if (!(pose.position.cwiseAbs().maxCoeff() <= kFarthest))
+  std_msgs::Header vehicle;
+  vehicle.frame_id = o.base_frame;
+  vehicle.stamp = image.message->header.stamp;
+  Placing by{o.map_frame, 0.0, Moving::AT_STAMP};
+  by.wait = o.prediction_wait;
+  by.stop = stop;
+  const Isometry3d pose = transforms.place(vehicle, by).pose;
+  if (!(pose.translation().cwiseAbs().maxCoeff() <= kFarthest))
     throw InputError("tf has the vehicle farther than 1e6 m from the map's origin");
-  return isometryOf(pose);
+  return pose;
 }
 
 PoseEstimate predictionOf(const MarkerLocalizerOptions& o, const Isometry3d& panel_from_camera) {

@@ -15,7 +15,7 @@
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "localization/measurement_check.h"
 #include "ros/guard/incoming/claimed_lengths.h"
-#include "ros/input/transform_receiver.h"
+#include "ros/input/frame_lookup.h"
 #include "ros/localization/sensor_messages.h"
 #include "ros/messages/bag_reader.h"
 
@@ -70,8 +70,8 @@ class NavigationBag {
  private:
   using Reader = std::function<void(const BagMessage&)>;
 
-  geometry_msgs::Transform placed(const std::string& target, const std::string& source) const {
-    return transforms_.lookupTransform(target, source, ros::Time(0)).transform;
+  Eigen::Isometry3d placed(const std::string& target, const std::string& source) const {
+    return isometryOf(transforms_.lookupTransform(target, source, ros::Time(0)).transform);
   }
 
   void placeFrames() {

@@ -1,8 +1,5 @@
 #include "ros/localization/other_odometry.h"
 
-#include <cmath>
-
-#include "ros/guard/clock.h"
 #include "ros/localization/sensor_messages.h"
 
 namespace grid_path_planner::nodes {
@@ -12,19 +9,19 @@ using localization::Mounting;
 namespace {
 
 // Its stamp is that of the place; `stamp` where all of it is static.
-std::optional<geometry_msgs::TransformStamped> placeInOdometry(const FrameLookup& transforms,
-                                                               const OdometryFrames& frames,
-                                                               const ros::Time& stamp) {
+std::optional<Placed> placeInOdometry(const FrameLookup& transforms, const OdometryFrames& frames,
+                                      const ros::Time& stamp) {
   if (transforms.commonFrame(frames.odometry, frames.base) != frames.odometry) return {};
-  for (const ros::Time& at : {stamp, ros::Time(0)}) {
-    try {
-      auto place = transforms.transform(frames.odometry, frames.base, at);
-      if (place.header.stamp.isZero()) place.header.stamp = stamp;
-      if (std::abs(secondsBetween(place.header.stamp, stamp)) <= kOldestOdometry) return place;
-    } catch (const TransformError&) {  // none of that time
-    }
+  std_msgs::Header base;
+  base.frame_id = frames.base;
+  base.stamp = stamp;
+  try {
+    Placed place = transforms.place(base, {frames.odometry, kOldestOdometry, Moving::AT_STAMP});
+    if (place.stamp.isZero()) place.stamp = stamp;
+    return place;
+  } catch (const TransformError&) {  // none of that time
+    return {};
   }
-  return {};
 }
 
 }  // namespace
@@ -35,12 +32,10 @@ std::optional<Mounting> mapToOtherOdometry(const FrameLookup& transforms,
                                            const Mounting& base, const ros::Time& stamp) {
   const auto place = placeInOdometry(transforms, frames, stamp);
   if (!place) return {};
-  const auto snapshot = localizer.mapAt(stampOf(place->header.stamp));
+  const auto snapshot = localizer.mapAt(stampOf(place->stamp));
   if (!snapshot) return {};
   const localization::State& state = snapshot->estimate.state;
-  const auto& t = place->transform.translation;
-  const auto& r = place->transform.rotation;
-  const Mounting in_odometry{{t.x, t.y, t.z}, Eigen::Quaterniond(r.w, r.x, r.y, r.z).normalized()};
+  const Mounting in_odometry{place->pose.translation(), Eigen::Quaterniond(place->pose.linear())};
   return Mounting{state.position, state.attitude} * base * inverse(in_odometry);
 }
 

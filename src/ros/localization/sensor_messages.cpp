@@ -20,6 +20,7 @@ using localization::Stamp;
 namespace {
 
 constexpr double kSurfacePressure = 101325.0;  // Pa
+constexpr double kLeastPressure = 30000.0;     // Pa: of the air on the highest mountains
 
 // The message's frame without a leading slash; a name of the network.
 std::string nameOf(const std_msgs::Header& header) {
@@ -89,8 +90,8 @@ SensorMessages::SensorMessages(Lookup lookup, const VehicleLocalizerOptions& opt
 Mounting SensorMessages::mountingOf(const std::string& frame) const {
   if (body_frame_.empty()) throw InputError("no IMU has said where it is yet");
   if (frame == body_frame_) return {};
-  const geometry_msgs::Transform in_body = lookup_(body_frame_, frame);
-  const Mounting mounting{vectorOf(in_body.translation), rotationOf(in_body.rotation)};
+  const Eigen::Isometry3d in_body = lookup_(body_frame_, frame);
+  const Mounting mounting{in_body.translation(), Eigen::Quaterniond(in_body.linear())};
   localization::checkMounting(mounting);
   return mounting;
 }
@@ -148,7 +149,11 @@ Measurement SensorMessages::depth(const geometry_msgs::PoseWithCovarianceStamped
                                  mountingOf(options_.depth_frame).position}};
 }
 
+// uuv_simulator's are in kPa and those of mavros' HIGHRES_IMU in hPa, which would be 10 m above the water.
 Measurement SensorMessages::pressure(const sensor_msgs::FluidPressure& message) const {
+  if (message.fluid_pressure < kLeastPressure)
+    throw InputError("a pressure must be in Pa, got " + std::to_string(message.fluid_pressure) +
+                     ", which no air or water has: kPa or hPa?");
   const double weight = options_.water_density * options_.localizer.filter.gravity;
   const double z = options_.surface_z - (message.fluid_pressure - kSurfacePressure) / weight;
   const double variance = message.variance == 0.0

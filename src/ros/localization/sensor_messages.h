@@ -34,7 +34,7 @@ class SensorMessages {
  public:
   // The latest transform of what is in `source` into `target`; throws std::runtime_error where there is none.
   using Lookup =
-      std::function<geometry_msgs::Transform(const std::string& target, const std::string& source)>;
+      std::function<Eigen::Isometry3d(const std::string& target, const std::string& source)>;
 
   SensorMessages(Lookup lookup, const VehicleLocalizerOptions& options);
 

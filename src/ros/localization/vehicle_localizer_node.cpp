@@ -86,6 +86,7 @@ VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle&
       rivals_(childrenOf(options_)),
       transforms_(nh, [this](const tf2_msgs::TFMessage& message, const std::string& node,
                              bool is_static) { rivals_.hear(message, node, is_static); }),
+      time_(NodeTime::of(nh)),
       localizer_(options_.localizer),
       kept_(files.saveFolder().path(), private_nh.getNamespace()),
       messages_([this](const std::string& target,
@@ -104,6 +105,7 @@ VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle&
   reconfigurable_ =
       std::make_unique<Reconfigurable<VehicleLocalizerConfig, VehicleLocalizerOptions>>(
           private_nh, options_, [this](const VehicleLocalizerOptions& options) { use(options); });
+  on_jump_back_ = time_.onJumpBack([this](double seconds) { timeWentBack(seconds); });
   publish_timer_ = guardedTimer(nh_, 1.0 / options_.publish_rate, [this] { onTimer(); });
   startDiagnostics();
 }
@@ -116,9 +118,9 @@ VehicleLocalizerNode::~VehicleLocalizerNode() {
 }
 
 // Not through the map or the odometry, which are this node's own estimate.
-geometry_msgs::Transform VehicleLocalizerNode::placeOnVehicle(const std::string& target,
-                                                              const std::string& source) const {
-  const auto found = transforms_.transform(target, source).transform;
+Eigen::Isometry3d VehicleLocalizerNode::placeOnVehicle(const std::string& target,
+                                                       const std::string& source) const {
+  const Eigen::Isometry3d found = mountingIn(transforms_, target, source);
   checkOnVehicle(transforms_, target, source, {options_.map_frame, options_.odom_frame});
   return found;
 }
@@ -197,15 +199,10 @@ void VehicleLocalizerNode::use(VehicleLocalizerOptions options) {
   options_ = options;
 }
 
-// False while there is no ROS time.
-bool VehicleLocalizerNode::noticeTime() {
-  if (!clock_.hasTime()) return false;
-  if (const auto back = clock_.jumpedBack()) {
-    ROS_WARN_STREAM("ROS time went back by " << *back << " s: everything begins anew");
-    beginAnew(headingAfterStep(localizer_.knownHeading(), *back, stampOf(ros::Time::now()),
-                               ros::Time::isSimTime()));
-  }
-  return true;
+void VehicleLocalizerNode::timeWentBack(double seconds) {
+  ROS_WARN_STREAM("ROS time went back by " << seconds << " s: everything begins anew");
+  beginAnew(headingAfterStep(localizer_.knownHeading(), seconds, stampOf(ros::Time::now()),
+                             ros::Time::isSimTime()));
 }
 
 // But with what is known of the IMU's heading, if anything is.
@@ -230,11 +227,11 @@ void VehicleLocalizerNode::beginAnew(const std::optional<localization::KnownHead
 // Why it was not used; empty: it was.
 template <class Convert>
 std::string VehicleLocalizerNode::take(Source source, const Convert& convert) {
-  if (!noticeTime()) return "there is no ROS time yet";
+  if (!time_.isThere()) return "there is no ROS time yet";
   inputs_[source].receive();
   try {
     const localization::Measurement measurement = convert();
-    const ros::Time now = late_clock_.timeFor(timeOf(measurement.stamp), localization::kMostAhead);
+    const ros::Time now = time_.nowAfter(timeOf(measurement.stamp), localization::kMostAhead);
     localization::checkStamp(measurement.stamp, stampOf(now), options_.localizer.filter.history);
     const Verdict verdict = localizer_.add(measurement);
     fixes_.add(measurement, verdict, options_.map_frame);
@@ -261,7 +258,7 @@ void VehicleLocalizerNode::onImu(const sensor_msgs::Imu& message) {
 
 // Several within one step of simulated time are one command.
 void VehicleLocalizerNode::onCommand(const geometry_msgs::Twist& message) {
-  if (!noticeTime()) return;
+  if (!time_.isThere()) return;
   const ros::Time now = ros::Time::now();
   if (now == std::exchange(last_command_, now)) return;
   take(Source::COMMAND, [&] { return messages_.command(message, now); });
@@ -273,7 +270,7 @@ std::string VehicleLocalizerNode::setPose(const PoseWithCovarianceStamped& messa
 
 // While no IMU does.
 void VehicleLocalizerNode::onTimer() {
-  if (!noticeTime()) return;
+  if (!time_.isThere()) return;
   const ros::Time now = ros::Time::now();
   const double late = 3.0 / options_.publish_rate;
   if (publisher_.isDue(now - ros::Duration(std::min(late, now.toSec())))) publish(now);

@@ -38,8 +38,8 @@
 
 #include "grid_path_planner/SetPose.h"
 #include "localization/vehicle_localizer.h"
-#include "ros/guard/clock.h"
 #include "ros/guard/node_files.h"
+#include "ros/guard/node_time.h"
 #include "ros/input/frame_lookup.h"
 #include "ros/localization/fix_markers.h"
 #include "ros/localization/input_log.h"
@@ -69,14 +69,13 @@ class VehicleLocalizerNode {
   ~VehicleLocalizerNode();
 
  private:
-  geometry_msgs::Transform placeOnVehicle(const std::string& target,
-                                          const std::string& source) const;
+  Eigen::Isometry3d placeOnVehicle(const std::string& target, const std::string& source) const;
   void subscribe();
   void subscribeSensors();
   void offerServices(ros::NodeHandle& private_nh);
   void startDiagnostics();
   void use(VehicleLocalizerOptions options);
-  bool noticeTime();
+  void timeWentBack(double seconds);
   void beginAnew(const std::optional<localization::KnownHeading>& heading = {});
   template <class Convert>
   std::string take(localization::Source source, const Convert& convert);
@@ -96,8 +95,7 @@ class VehicleLocalizerNode {
   VehicleLocalizerOptions options_;
   TransformRivals rivals_;
   FrameTransforms transforms_;  // tells the rivals
-  ClockWatch clock_;
-  LateClock late_clock_;
+  NodeTime& time_;
   localization::VehicleLocalizer localizer_;
   KeptHeading kept_;
   SensorMessages messages_;
@@ -116,6 +114,7 @@ class VehicleLocalizerNode {
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer publish_timer_, diagnostics_timer_;
   std::unique_ptr<Reconfigurable<VehicleLocalizerConfig, VehicleLocalizerOptions>> reconfigurable_;
+  std::shared_ptr<void> on_jump_back_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -23,12 +23,6 @@ constexpr char kTooMany[] = "too many waiting for tf";
 constexpr char kTooSlow[] = "faster than they are mapped";
 constexpr char kTooLarge[] = "too many bytes waiting";
 
-Eigen::Isometry3d isometryOf(const geometry_msgs::Transform& t) {
-  const Eigen::Quaterniond rotation(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z);
-  return Eigen::Translation3d(t.translation.x, t.translation.y, t.translation.z) *
-         rotation.normalized();
-}
-
 std::string describe(const sensor_msgs::PointCloud2& cloud) {
   std::ostringstream text;
   text << "a cloud in frame '" << cloud.header.frame_id << "' stamped " << cloud.header.stamp;

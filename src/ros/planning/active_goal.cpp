@@ -79,11 +79,13 @@ void ActiveGoal::failed(std::uint64_t id) {
 }
 
 bool ActiveGoal::commit(std::uint64_t id, const Plan& plan, unsigned path_settings,
-                        const std::function<void()>& publish) {
+                        const std::function<void()>& publish,
+                        const std::optional<geometry_msgs::PoseStamped>& placed) {
   std::lock_guard<std::mutex> lock(mutex_);
   if (!goal_ || goal_->id != id) return false;
   goal_->answered = true;
   goal_->request.start.reset();  // every replan starts from tf
+  if (placed) goal_->request.goal = *placed;
   goal_->status = plan.status;
   goal_->path = plan.path;
   goal_->path_settings = path_settings;

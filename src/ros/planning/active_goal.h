@@ -51,9 +51,10 @@ class ActiveGoal {
   // An answer to it failed: there is no path, and a retry is due.
   void failed(std::uint64_t id);
   // If `id` is still the goal's: stores the answer and calls `publish` before any new goal is
-  // accepted. Returns whether it was.
+  // accepted. Returns whether it was. `placed`: the goal that stands from now on, of one in a frame that moves.
   bool commit(std::uint64_t id, const planning::Plan& plan, unsigned path_settings,
-              const std::function<void()>& publish);
+              const std::function<void()>& publish,
+              const std::optional<geometry_msgs::PoseStamped>& placed = {});
 
  private:
   mutable std::mutex mutex_;

@@ -98,8 +98,7 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
                                   memoryLimitOf(options.planner.search)));
   commands_ = std::make_unique<CommandClaim>(
       private_nh.getNamespace(), Commands{{}, {nh.resolveName("plan_path")}, "", false});
-  server_ =
-      std::make_unique<PlanningServer>(nh, options, files, [this] { active_goal_.timeWentBack(); });
+  server_ = std::make_unique<PlanningServer>(nh, options, files);
   planning_map_ = std::make_unique<PlanningMapPublisher>(nh, [this] { postSearchedMap(); });
   cost_to_go_ = std::make_unique<CostToGoPublisher>(private_nh, [this] { postCostToGo(); });
   services_ = std::make_unique<PlanServices>(private_nh, *server_);
@@ -109,11 +108,18 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
   reconfigurable_ = std::make_unique<Reconfigurable<PathPlannerConfig, PathPlannerNodeOptions>>(
       private_nh, options, [this](const PathPlannerNodeOptions& wanted) { onOptions(wanted); });
   server_->startMaps(nh, [this] { onMapChange(); });
-  goal_subscriber_ = subscribeChecked<geometry_msgs::PoseStamped>(
-      nh, "goal", 1, [this](const geometry_msgs::PoseStamped& message) { onGoal(message); });
-  initial_pose_subscriber_ = subscribeChecked<geometry_msgs::PoseWithCovarianceStamped>(
-      nh, "initialpose", 1,
-      [this](const geometry_msgs::PoseWithCovarianceStamped& message) { onInitialPose(message); });
+  subscribers_ = {
+      subscribeChecked<geometry_msgs::PoseStamped>(
+          nh, "goal", 1, [this](const geometry_msgs::PoseStamped& message) { onGoal(message); }),
+      subscribeChecked<geometry_msgs::PoseWithCovarianceStamped>(
+          nh, "initialpose", 1, [this](const geometry_msgs::PoseWithCovarianceStamped& message) {
+            onInitialPose(message);
+          })};
+  on_jump_back_ = NodeTime::of(nh).onJumpBack([this](double seconds) {
+    ROS_WARN_STREAM("ROS time went back by "
+                    << seconds << " s: transforms and start poses from before are forgotten");
+    active_goal_.timeWentBack();
+  });
   clock_timer_ = guardedTimer(nh, 0.05, [this] { checkTime(); });
   full_map_timer_ = guardedTimer(nh, 0.1, [this] {
     if (planning_map_->wholeMapIsDue(server_->settings().options.full_map_period))
@@ -123,8 +129,7 @@ PathPlannerNode::PathPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private_n
 }
 
 PathPlannerNode::~PathPlannerNode() {
-  goal_subscriber_.shutdown();
-  initial_pose_subscriber_.shutdown();
+  for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
   clock_timer_.stop();
   full_map_timer_.stop();
   reconfigurable_.reset();
@@ -132,7 +137,6 @@ PathPlannerNode::~PathPlannerNode() {
 }
 
 void PathPlannerNode::checkTime() {
-  server_->checkClock();
   const auto placed = [this](const GoalState& goal) {
     return server_->placed(goal.path.frame_id, goal.request.goal);
   };
@@ -157,14 +161,12 @@ void PathPlannerNode::replanInTime() {
 }
 
 void PathPlannerNode::onGoal(const geometry_msgs::PoseStamped& message) {
-  server_->checkClock();
   active_goal_.setGoal(message, ros::Time::now());
   server_->vehicleLane().worker().cancel(kGoalSlot);
   postPlanForGoal();
 }
 
 void PathPlannerNode::onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  server_->checkClock();
   geometry_msgs::PoseStamped start;
   start.header = message.header;
   start.pose = message.pose.pose;
@@ -212,7 +214,7 @@ void PathPlannerNode::postCostToGo() {
 }
 
 void PathPlannerNode::planForGoal(const StopSource& stop) {
-  server_->checkClock();  // it may forget the start
+  server_->tellJumps();
   const auto goal = active_goal_.beginPlanning(std::chrono::steady_clock::now());
   try {
     planFor(*goal, stop);
@@ -231,11 +233,13 @@ void PathPlannerNode::planFor(const GoalState& goal, const StopSource& stop) {
   server_->record(lane, plan, settings.options);
   if (stop.cancelled() || keepsOldPath(goal, plan, settings, stop)) return;
   const bool as_before = goal.answered && !plan.found() && plan.status == goal.status;
-  const bool taken = active_goal_.commit(goal.id, plan, settings.revision, [&] {
+  const auto publish = [&] {
     server_->remember(plan);
     if (!as_before)
       server_->publisher().publishPath(lane.posesAlong(plan, settings.options), goal.given);
-  });
+  };
+  const auto placed = lane.placedGoal(goal.request, settings.options);
+  const bool taken = active_goal_.commit(goal.id, plan, settings.revision, publish, placed);
   if (!taken) return;
   // Who drives the path does not wait for what is told of it.
   server_->publish(lane, plan, lane.statistics(plan, goal.request, settings.options), as_before);
@@ -283,10 +287,11 @@ void PathPlannerNode::publishSearchedMap(const StopSource& stop) {
   const PathPlannerNodeOptions options = server_->settings().options;
   PlanningLane& lane = server_->vehicleLane();
   try {
+    const ros::Time newest = server_->maps().latest().stamp;  // before a newer map may come
     const auto costs = lane.downsampledCosts(options, stop.token());
     if (!costs) return;
     waitForClock(stop.token());
-    planning_map_->publish(*costs, lane.downsampledChanges(), lane.frame(options),
+    planning_map_->publish(*costs, lane.downsampledChanges(), lane.frame(options), newest,
                            options.full_map_period);
     publishRectangles(options, costs);
   } catch (const Stopped&) {

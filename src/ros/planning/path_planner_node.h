@@ -14,6 +14,7 @@
 
 #include <atomic>
 #include <memory>
+#include <vector>
 
 #include "ros/guard/master/command_claim.h"
 #include "ros/guard/scheduling/ros_period.h"
@@ -84,12 +85,12 @@ class PathPlannerNode {
   std::unique_ptr<PlanAction> action_;
   std::unique_ptr<PlanDiagnostics> diagnostics_;
   std::unique_ptr<Reconfigurable<PathPlannerConfig, PathPlannerNodeOptions>> reconfigurable_;
-  ros::Subscriber goal_subscriber_;
-  ros::Subscriber initial_pose_subscriber_;
+  std::vector<ros::Subscriber> subscribers_;
   RosPeriod replan_period_;
   ros::SteadyTimer clock_timer_;
   std::atomic<bool> map_unchecked_{false};  // what follows a map was given up
   ros::SteadyTimer full_map_timer_;
+  std::shared_ptr<void> on_jump_back_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -7,6 +7,7 @@
 
 #include "grid_path_planner/base/options.h"
 #include "grid_path_planner/planning/path_planner.h"
+#include "ros/messages/zero_heading.h"
 
 namespace grid_path_planner::nodes {
 
@@ -17,7 +18,9 @@ struct PathPlannerNodeOptions {
   planning::PlannerOptions planner;
   std::string map_frame = "map";
   std::string base_frame = "base_link";
-  double tf_timeout = 0.5;  // s, steady clock
+  double map_data_timeout = 3.0;  // s
+  double tf_timeout = 0.5;        // s, steady clock
+  ZeroHeading zero_heading = ZeroHeading::REFUSED;
   GoalZ goal_z_from = GoalZ::MESSAGE;
   double replan_period = 0.0;      // s, ROS time; 0: never
   double replan_hysteresis = 0.1;  // of the new path's cost
@@ -28,26 +31,38 @@ struct PathPlannerNodeOptions {
   bool publish_rectangles = false;
 };
 
+// A group of the options, in the order of visitOptions.
 template <class Visitor>
-void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
-  visitOptions(o.planner, visit);
+void visitPoseOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
   visit("map_frame", o.map_frame,
         base::OptionInfo{
             "Frame of maps and goals that name none, and of results before there is a map", ""}
             .under("The node"));
+  visit("map_data_timeout", o.map_data_timeout,
+        base::OptionInfo{
+            "A plan says so, and diagnostics warn, where the newest cloud or scan in a map "
+            "that has a heartbeat is older; navigate_path holds then",
+            "s", 0.1, 3600.0});
   visit("base_frame", o.base_frame,
         base::OptionInfo{
             "Frame of the vehicle, where paths start, unless initialpose said otherwise", ""});
-  visit(
-      "tf_timeout", o.tf_timeout,
-      base::OptionInfo{"How long a transform is waited for before TRANSFORM_ERROR, and how old the "
-                       "vehicle's pose may be as a start; 0: no wait, and any age",
-                       "s", 0, 60});
+  visit("tf_timeout", o.tf_timeout,
+        base::OptionInfo{"How old a transform of the vehicle, a goal or a start may be, and how "
+                         "long one is waited for "
+                         "before TRANSFORM_ERROR; 0: no wait, and any age",
+                         "s", 0, 60});
+  visitZeroHeading(o.zero_heading, visit);
   visit("goal_z_from", o.goal_z_from,
         base::OptionInfo{
             "Where the z of a goal comes from; vehicle: it is that of the start, for goals "
             "of rviz have z = 0",
             ""});
+}
+
+template <class Visitor>
+void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
+  visitOptions(o.planner, visit);
+  visitPoseOptions(o, visit);
   visit("replan_period", o.replan_period,
         base::OptionInfo{
             "ROS time between two plannings for the same goal, 20 in a second of the wall clock at "

@@ -9,6 +9,7 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/planning/replan_policy.h"
+#include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "planning/map_store.h"
 #include "ros/guard/clock.h"
@@ -59,10 +60,7 @@ PlanningLane::PlanningLane(const MapReceiver& maps, std::shared_ptr<MapStore> st
       store_(std::move(store)),
       transforms_(transforms),
       other_(other),
-      worker_([this](const std::string& error) {
-        beginAnew();
-        tellGivenUp("What follows a map", error);
-      }) {}
+      worker_([](const std::string& error) { tellGivenUp("What follows a map", error); }) {}
 
 void PlanningLane::prepare(const PathPlannerNodeOptions& options, const StopToken& stop) {
   takeMap();
@@ -97,6 +95,9 @@ ViaPlan PlanningLane::plan(const PlanningRequest& request, const PathPlannerNode
   Plan& plan = answer.plan;
   plan.path.frame_id = plan.waypoints.frame_id = frame(options);
   if (!plan.found()) plan.path.poses.clear();
+  const MapData data = maps_.latest().data;
+  if (plan.found() && data.problem(Instant::now(), 0.0, options.map_data_timeout))
+    plan.message += "; the newest data in the map is older than map_data_timeout";
   return answer;
 }
 
@@ -133,7 +134,6 @@ ViaPlan PlanningLane::tryToPlan(const PlanningRequest& request,
                                         ? "planning reached its time limit"
                                         : "planning was cancelled");
   } catch (...) {
-    beginAnew();  // before the text, for which there may be no memory
     return failed(Status::INVALID_REQUEST, "the request was given up: " + currentErrorText());
   }
 }
@@ -152,7 +152,6 @@ Explanation PlanningLane::explain(const PlanningRequest& request, Status status,
   } catch (const TransformError&) {
   } catch (const Stopped&) {
   } catch (...) {
-    beginAnew();
   }
   return {};
 }
@@ -173,9 +172,12 @@ PlanStatistics PlanningLane::statistics(const Plan& plan, const PlanningRequest&
 }
 
 double PlanningLane::clearanceOf(const Path& path, const OccupancyThresholds& thresholds) {
-  if (!clearances_ || !clearances_->isOf(planner_->map(), thresholds))
-    clearances_.emplace(planner_->map(), thresholds);
-  return clearances_->clearanceOf(path);
+  auto meter = std::move(clearances_);  // what an error leaves half done is gone
+  if (!meter || !meter->isOf(planner_->map(), thresholds))
+    meter = std::make_unique<path::ClearanceMeter>(planner_->map(), thresholds);
+  const double clearance = meter->clearanceOf(path);
+  clearances_ = std::move(meter);
+  return clearance;
 }
 
 Path PlanningLane::posesAlong(const Plan& plan, const PathPlannerNodeOptions& options) const {
@@ -214,14 +216,6 @@ void PlanningLane::setOptions(const PlannerOptions& options) {
   planner_->limitMemory(limit - std::min(limit, other_ ? other_->bytes_.load() : 0));
 }
 
-// An exception may have left the costmaps or the planner half made. Nothing is made here: after a
-// std::bad_alloc there may be no memory for it yet.
-void PlanningLane::beginAnew() {
-  clearances_.reset();
-  planner_.reset();
-  bytes_ = 0;
-}
-
 std::shared_ptr<const CostGrid> PlanningLane::downsampledCosts(
     const PathPlannerNodeOptions& options, const StopToken& stop) {
   takeMap();
@@ -258,9 +252,20 @@ std::string PlanningLane::footprintContact(const Path& path,
 Eigen::Vector2d PlanningLane::goalOf(const PlanningRequest& request,
                                      const PathPlannerNodeOptions& options,
                                      const StopToken& stop) const {
-  return transforms_
-      .poseIn(frame(options), request.goal, options.map_frame, options.tf_timeout, stop)
+  return transforms_.place(request.goal, placingInMap(options, frame(options), stop))
       .position.head<2>();
+}
+
+std::optional<geometry_msgs::PoseStamped> PlanningLane::placedGoal(
+    const PlanningRequest& request, const PathPlannerNodeOptions& options) const {
+  const std::string named = frameInMap(request.goal.header.frame_id, options.map_frame);
+  if (!question_ || !transforms_.movesWith(frameName(options.base_frame), named))
+    return std::nullopt;
+  geometry_msgs::PoseStamped placed;
+  placed.header.frame_id = frame(options);
+  placed.pose = poseToMessage(question_->request.goal);
+  if (question_->request.any_goal_heading) placed.pose.orientation = {};
+  return placed;
 }
 
 std::string PlanningLane::frame(const PathPlannerNodeOptions& options) const {

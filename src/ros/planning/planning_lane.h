@@ -6,8 +6,7 @@
 // path_planner has two: in one it follows the map and plans for the vehicle, in the other it answers
 // questions of services and actions, so that no question delays the vehicle: both share the map and
 // its costmaps (planning/map_store.h), and neither waits for what the other plans. Whatever goes
-// wrong with a request is a status with a sentence, memory that is not there included: the lane then
-// begins anew with the newest map.
+// wrong with a request is a status with a sentence, memory that is not there included.
 #pragma once
 
 #include <atomic>
@@ -99,6 +98,11 @@ class PlanningLane {
   Eigen::Vector2d goalOf(const PlanningRequest& request, const PathPlannerNodeOptions& options,
                          const base::StopToken& stop) const;
 
+  // The goal of the request that was planned last, in the map's frame, where it is in one that moves with the vehicle: it
+  // stands where that was.
+  std::optional<geometry_msgs::PoseStamped> placedGoal(const PlanningRequest& request,
+                                                       const PathPlannerNodeOptions& options) const;
+
   // Of the map that was used last; map_frame where there is none or it names none.
   std::string frame(const PathPlannerNodeOptions& options) const;
 
@@ -109,7 +113,6 @@ class PlanningLane {
   planning::ViaPlan tryToPlan(const PlanningRequest& request, const PathPlannerNodeOptions& options,
                               const base::StopSource& stop, const PhaseListener& on_phase,
                               std::uint64_t at_least);
-  void beginAnew();
   double clearanceOf(const path::Path& path, const grid::OccupancyThresholds& thresholds);
   // Of the options, and the memory that the other lane leaves.
   void setOptions(const planning::PlannerOptions& options);
@@ -118,10 +121,10 @@ class PlanningLane {
   const std::shared_ptr<planning::MapStore> store_;
   const FrameTransforms& transforms_;
   const PlanningLane* const other_;
-  std::atomic<std::size_t> bytes_{0};               // that the planner does not share
-  std::unique_ptr<planning::PathPlanner> planner_;  // the worker's; null before takeMap()
-  std::optional<path::ClearanceMeter> clearances_;  // over the planner's map, at most as long
-  std::optional<PlanQuestion> question_;            // of the plan just made
+  std::atomic<std::size_t> bytes_{0};                 // that the planner does not share
+  std::unique_ptr<planning::PathPlanner> planner_;    // the worker's; null before takeMap()
+  std::unique_ptr<path::ClearanceMeter> clearances_;  // over the planner's map, at most as long
+  std::optional<PlanQuestion> question_;              // of the plan just made
   base::TaskQueue worker_;
 };
 

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <chrono>
+#include <limits>
 #include <utility>
 
 #include "base/current_error.h"
@@ -35,27 +36,25 @@ namespace {
 // How long an explanation may take where it was asked for, and where an answer waits for it.
 constexpr std::chrono::milliseconds kExplains(1000), kExplainsAtOnce(300);
 
+Placing atOnce(Placing by) {
+  by.wait = 0.0;
+  return by;
+}
+
 }  // namespace
 
 PlanningServer::PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions& options,
-                               const NodeFiles& files, std::function<void()> on_time_jump)
+                               const NodeFiles& files)
     : files_(files),
-      on_time_jump_(std::move(on_time_jump)),
-      settings_{options, 0},
+      settings_(Settings{options, 0}),
       transforms_(nh),
       publisher_(nh),
       recorder_(nh),
       explanations_(nh),
       store_(std::make_shared<MapStore>()) {}
 
-PlanningServer::Settings PlanningServer::settings() const {
-  std::lock_guard<std::mutex> lock(mutex_);
-  return settings_;
-}
-
 void PlanningServer::setOptions(const PathPlannerNodeOptions& options) {
-  std::lock_guard<std::mutex> lock(mutex_);
-  settings_ = {options, settings_.revision + 1};
+  settings_.change([&](Settings& next) { next = {options, next.revision + 1}; });
 }
 
 bool PlanTicket::waitForPoses(std::chrono::duration<double> limit) const {
@@ -118,7 +117,7 @@ void PlanningServer::answer(PlanTicket& ticket, const PlanningRequest& request, 
                             Explain explain, const StopSource& stop) {
   PathPlannerNodeOptions options = recordingOptions(settings().options);
   if (publish == Publish::NO) options.record_search = false;
-  checkClock();
+  tellJumps();
   ticket.via_ = question_lane_.plan(
       request, options, stop, [&](const char* phase) { ticket.phase_ = phase; }, ticket.map_);
   Plan plan = std::move(ticket.via_.plan);
@@ -171,8 +170,9 @@ void PlanningServer::explain(const PlanningRequest& request, const Plan& plan, u
   const std::string message = plan.message + "; " + explanation.text;
   ROS_WARN_STREAM("Why: " << message);
   explanations_.publish(explanation, plan.path.frame_id);
-  std::lock_guard<std::mutex> lock(mutex_);
-  if (outcome_ && outcome_->message == plan.message) outcome_->message = message;
+  answered_.change([&](Answered& next) {
+    if (next.outcome && next.outcome->message == plan.message) next.outcome->message = message;
+  });
 }
 
 PathPlannerNodeOptions PlanningServer::recordingOptions(PathPlannerNodeOptions options) const {
@@ -180,10 +180,13 @@ PathPlannerNodeOptions PlanningServer::recordingOptions(PathPlannerNodeOptions o
   return options;
 }
 
+// What of a path lies behind it was driven, however long ago.
 std::optional<Eigen::Vector2d> PlanningServer::vehicle(
     const std::string& frame, const PathPlannerNodeOptions& options) const {
+  Placing by = atOnce(placingInMap(options, frame));
+  by.max_age = std::numeric_limits<double>::infinity();
   try {
-    return transforms_.poseOf(options.base_frame, frame, 0.0, StopToken()).position.head<2>();
+    return transforms_.placeVehicle(by).level().position.head<2>();
   } catch (const TransformError&) {
     return std::nullopt;
   }
@@ -193,24 +196,14 @@ bool PlanningServer::placed(const std::string& frame,
                             const geometry_msgs::PoseStamped& goal) const {
   const PathPlannerNodeOptions options = settings().options;
   try {
-    transforms_.poseOf(options.base_frame, frame, 0.0, StopToken(), oldestStart(options));
-    transforms_.poseIn(frame, goal, options.map_frame, 0.0, StopToken());
+    const Placing by = atOnce(placingInMap(options, frame));
+    transforms_.placeVehicle(by);
+    transforms_.place(goal, by);
     return true;
   } catch (const TransformError&) {
   } catch (const InputError&) {
   }
   return false;
-}
-
-// Who asks next finds what is done of a jump done.
-void PlanningServer::checkClock() {
-  {
-    const std::lock_guard<std::mutex> lock(clock_mutex_);
-    if (!clock_.jumpedBack()) return;
-    transforms_.clear();
-    on_time_jump_();
-  }
-  ROS_WARN("ROS time jumped back: transforms and start poses from before are forgotten");
 }
 
 void PlanningServer::stop() {
@@ -248,9 +241,10 @@ void PlanningServer::publish(const PlanningLane& lane, const Plan& plan,
 }
 
 void PlanningServer::remember(const Plan& plan) {
-  std::lock_guard<std::mutex> lock(mutex_);
-  outcome_ = Outcome{plan.status, plan.message};
-  if (plan.found()) last_waypoints_ = plan.waypoints;
+  answered_.change([&](Answered& next) {
+    next.outcome = Outcome{plan.status, plan.message};
+    if (plan.found()) next.waypoints = plan.waypoints;
+  });
 }
 
 void PlanningServer::writeWaypoints(const Path& waypoints) {
@@ -261,16 +255,6 @@ void PlanningServer::writeWaypoints(const Path& waypoints) {
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The waypoints were not saved: " << error.what());
   }
-}
-
-std::optional<PlanningServer::Outcome> PlanningServer::lastOutcome() const {
-  std::lock_guard<std::mutex> lock(mutex_);
-  return outcome_;
-}
-
-std::optional<Path> PlanningServer::lastWaypoints() const {
-  std::lock_guard<std::mutex> lock(mutex_);
-  return last_waypoints_;
 }
 
 }  // namespace grid_path_planner::nodes

@@ -2,13 +2,13 @@
 // with the node's options. It has two lanes (planning_lane.h): ask() puts questions into one of them;
 // the other is for the node that follows the map and plans for the vehicle.
 //
-//   PlanningServer server(nh, options, files, [] {});  // nothing to do where ROS time jumps back
+//   PlanningServer server(nh, options, files);
 //   auto ticket = server.ask(request, PlanningServer::Publish::YES);
 //   ticket->wait();
 //   use(ticket->plan());
 //
 // Whatever goes wrong with a request is a status with a sentence. Publish::YES publishes statistics
-// and markers, writes ~waypoints_file and remembers the plan for lastOutcome() and lastWaypoints().
+// and markers, writes ~waypoints_file and remembers the plan for lastAnswer().
 #pragma once
 
 #include <atomic>
@@ -21,10 +21,11 @@
 #include <optional>
 #include <string>
 
+#include "base/committed.h"
 #include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/planning/path_planner.h"
-#include "ros/guard/clock.h"
 #include "ros/guard/node_files.h"
+#include "ros/guard/node_time.h"
 #include "ros/input/frame_lookup.h"
 #include "ros/input/map_receiver.h"
 #include "ros/planning/plan_publisher.h"
@@ -87,12 +88,15 @@ class PlanningServer {
     base::Status status;
     std::string message;
   };
+  // The outcome that was published last, and what a file holds of the last found path among those.
+  struct Answered {
+    std::optional<Outcome> outcome;
+    std::optional<path::Path> waypoints;
+  };
 
-  // `on_time_jump` is called, from any thread, whenever ROS time went back.
-  PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions& options, const NodeFiles& files,
-                 std::function<void()> on_time_jump);
+  PlanningServer(ros::NodeHandle nh, const PathPlannerNodeOptions& options, const NodeFiles& files);
 
-  Settings settings() const;
+  Settings settings() const { return *settings_.get(); }
   // For the requests that are answered after this. Precondition: the options are checked.
   void setOptions(const PathPlannerNodeOptions& options);
 
@@ -112,13 +116,10 @@ class PlanningServer {
   // Cancels all requests and accepts no more.
   void stop();
 
-  // Clears the transforms where ROS time went back since the last call. Called before every answer;
-  // a node may call it as often as it likes.
-  void checkClock();
+  // Clears the transforms where ROS time went back: for the threads of the lanes, before they ask tf.
+  void tellJumps() { time_of_lanes_.tellJumps(); }
 
-  // Of the plan that was published last, and what a file holds of the last found path among those.
-  std::optional<Outcome> lastOutcome() const;
-  std::optional<path::Path> lastWaypoints() const;
+  std::shared_ptr<const Answered> lastAnswer() const { return answered_.get(); }
 
   PlanningLane& vehicleLane() { return vehicle_lane_; }
   const MapReceiver& maps() const { return maps_; }
@@ -131,7 +132,7 @@ class PlanningServer {
   void record(const PlanningLane& lane, const planning::Plan& plan,
               const PathPlannerNodeOptions& options) const;
 
-  // For lastOutcome() and lastWaypoints(), before the plan is published.
+  // For lastAnswer(), before the plan is published.
   void remember(const planning::Plan& plan);
 
   // Publishes what is told of a plan just made in `lane`, whose thread calls. A failure `as_before` is not logged.
@@ -153,16 +154,14 @@ class PlanningServer {
   void writeWaypoints(const path::Path& waypoints);
 
   NodeFiles files_;
-  std::function<void()> on_time_jump_;
-  std::mutex clock_mutex_;
-  ClockWatch clock_;
-  mutable std::mutex mutex_;
-  Settings settings_;
-  std::optional<Outcome> outcome_;
-  std::optional<path::Path> last_waypoints_;
+  base::Committed<Settings> settings_;
+  base::Committed<Answered> answered_;
   std::atomic<bool> asked_{true};  // since the last prepareForQuestions()
 
   FrameTransforms transforms_;
+  NodeTime time_of_lanes_;
+  const std::shared_ptr<void> on_jump_back_ =
+      time_of_lanes_.onJumpBack([this](double) { transforms_.clear(); });
   PlanPublisher publisher_;
   PlanRecorder recorder_;
   std::mutex explanation_mutex_;  // of the two below

@@ -49,15 +49,18 @@ void askFrames(const nodes::FrameLookup& frames, const nav_msgs::Path& path) {
     } catch (const nodes::TransformError&) {
     }
   };
-  mayFail([&] {
-    const path::Path moved = frames.pathIn(path, "base_link", "map", 10.0);
-    mustHold(moved.poses.size() == path.poses.size(), "every pose has its place");
-    frames.movesWith("base_link", moved.frame_id);
-    frames.pointsIn("map", moved.frame_id, {{1.0, 2.0, 3.0}});
-  });
-  for (const geometry_msgs::PoseStamped& pose : path.poses)
-    mayFail([&] { frames.poseIn("map", pose, "map", 0.0, {}); });
-  mayFail([&] { frames.recentPoseOf("base_link", "map", kNowOfFrames, 0.5); });
+  for (const nodes::Moving moving :
+       {nodes::Moving::NO, nodes::Moving::AT_STAMP, nodes::Moving::WITH_VEHICLE}) {
+    const nodes::Placing by{"map", 0.5, moving, "base_link"};
+    mayFail([&] {
+      const path::Path moved = frames.place(path, by);
+      mustHold(moved.poses.size() == path.poses.size(), "every pose has its place");
+    });
+    mayFail([&] { frames.place({{1.0, 2.0, 3.0}}, path.header, by); });
+    for (const geometry_msgs::PoseStamped& pose : path.poses)
+      mayFail([&] { frames.place(pose, by); });
+    mayFail([&] { frames.placeVehicle(by); });
+  }
   frames.commonFrame("base_link", "dock");
   frames.framesBetween("base_link", "dock");
 }

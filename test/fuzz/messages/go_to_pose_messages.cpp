@@ -73,6 +73,10 @@ std::vector<std::string> seedsOfGoals() {
           goalTo(2.0) + heard(PLAN_RESULT, bytesOf(none)) + heard(TICK) + heard(ABORT)};
 }
 
+void driveEnded(Navigator& navigator, const nodes::DriverAnswer& answer, double now) {
+  navigator.driveEnded(answer.status, answer.message, now);
+}
+
 void hear(Messages& messages, Navigator& navigator, double now, int& ends) {
   switch (messages.byte() % kHeard) {
     case PLAN_RESULT:
@@ -85,7 +89,7 @@ void hear(Messages& messages, Navigator& navigator, double now, int& ends) {
       return;
     case DRIVE_RESULT:
       if (const auto result = messages.next<NavigatePathResult>())
-        navigator.driveEnded(result->status, result->message, now);
+        driveEnded(navigator, nodes::driverAnswerOf(*result), now);
       return;
     case VEHICLE:  // tf says it, and knows no limits
       if (const auto pose = messages.next<geometry_msgs::Pose>())
@@ -99,7 +103,7 @@ void hear(Messages& messages, Navigator& navigator, double now, int& ends) {
     case GOAL:
       if (const auto goal = messages.next<move_base_msgs::MoveBaseGoal>())
         mayRefuse([&] {
-          nodes::checkGoal(goal->target_pose);
+          nodes::checkGoal(goal->target_pose, nodes::ZeroHeading::REFUSED);
           navigator.drop();
           ends = 0;
           navigator.start(now);

@@ -8,9 +8,11 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import actionlib
 import rospy
 import rostest
+import tf2_ros
 from actionlib_msgs.msg import GoalID
 from dynamic_reconfigure.msg import Config, StrParameter
 from dynamic_reconfigure.srv import Reconfigure
+from geometry_msgs.msg import TransformStamped
 from move_base_msgs.msg import MoveBaseAction, MoveBaseActionResult, MoveBaseGoal
 from std_msgs.msg import Empty
 
@@ -123,6 +125,19 @@ class GoToPose(GoToTest):
         self.send(pose(1, 1, frame="the_moon"))
         text = self.ends("ABORTED")
         self.assertTrue(text.startswith("TRANSFORM_ERROR") and "the_moon" in text, text)
+
+    def test_a_goal_in_a_frame_that_has_ceased_is_aborted_with_the_age(self):
+        """What was seen: the dock had not been seen for 40 s, and the vehicle set off to where it had been."""
+        dock = TransformStamped()
+        dock.header.frame_id, dock.header.stamp, dock.child_frame_id = "map", rospy.Time.now(), "dock"
+        dock.transform.translation.x, dock.transform.rotation.w = 1.0, 1.0
+        broadcaster = tf2_ros.TransformBroadcaster()
+        self.wait_for(lambda: broadcaster.pub_tf.get_num_connections() >= 3)
+        broadcaster.sendTransform(dock)
+        self.wait_for(lambda: rospy.Time.now() - dock.header.stamp > rospy.Duration(5))
+        self.send(pose(1, 1, frame="dock"))
+        text = self.ends("ABORTED")
+        self.assertTrue(text.startswith("TRANSFORM_ERROR: the transform from dock to map is"), text)
 
     def test_a_cancel_stamped_in_2106_cancels_no_later_goal(self):
         publisher = rospy.Publisher("move_base/cancel", GoalID, queue_size=1)

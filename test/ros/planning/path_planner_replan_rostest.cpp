@@ -72,6 +72,21 @@ TEST_F(ReplanTest, AMapUpdateThatBlocksThePathTriggersAReplan) {
   EXPECT_TRUE(endsAt(path_.poses.front(), 0.5, 2.5));
 }
 
+// The goal was placed anew with every plan: two metres ahead of the vehicle, wherever that was by then.
+TEST_F(ReplanTest, AGoalInTheVehiclesFrameStandsWhereThatWas) {
+  startPlanner();
+  publishMap(kCorridors);
+  placeVehicleAndWait(0.5, 2.5);
+  sendGoal(poseAt(4.0, 0.0, 0.0, "base_link"));
+  ASSERT_TRUE(endsAt(path_.poses.back(), 4.5, 2.5)) << answer_.message;
+  placeVehicleAndWait(1.5, 2.5);
+  const std::size_t statistics = statistics_.count(), paths = paths_.count();
+  sendUpdate(3, 2, 1, 1, {100});
+  waitForAnswer(statistics, paths);
+  EXPECT_TRUE(endsAt(path_.poses.front(), 1.5, 2.5));
+  EXPECT_TRUE(endsAt(path_.poses.back(), 4.5, 2.5));
+}
+
 // A vehicle that had reached its goal drove there again when the map changed: a driver could not tell
 // a path that is planned again from one for a new goal.
 TEST_F(ReplanTest, TheLastPoseIsStampedWithWhenTheGoalWasGiven) {

@@ -190,6 +190,27 @@ TEST_F(PathPlannerTest, AMapInSlashMapIsInMap) {
   EXPECT_EQ(path_.header.frame_id, "map");
 }
 
+// rospy's clients set no orientation, and the vehicle turned at the goal, or the goal was refused.
+TEST_F(PathPlannerTest, AnOrientationOfZerosIsNoHeadingUnlessAnyWillDo) {
+  geometry_msgs::PoseStamped zeros = poseAt(5.5, 2.5);
+  zeros.pose.orientation = geometry_msgs::Quaternion();
+  startPlanner();
+  publishMap(kRoom);
+  makePlan(poseAt(0.5, 0.5), zeros);
+  EXPECT_EQ(answer_.status, "INVALID_REQUEST");
+  EXPECT_NE(answer_.message.find("zero_heading"), std::string::npos) << answer_.message;
+  startPlanner({"_zero_heading:=any"});
+  publishMap(kRoom);
+  makePlan(poseAt(0.5, 0.5), zeros);
+  ASSERT_EQ(answer_.status, "FOUND") << answer_.message;
+  const auto& last = path_.poses.back();
+  const auto& before = path_.poses[path_.poses.size() - 2];
+  EXPECT_NEAR(yawOf(last.pose.orientation), yawOf(before.pose.orientation), 1e-9)
+      << "as it arrives";
+  makePlan(zeros, poseAt(5.5, 2.5));
+  EXPECT_EQ(answer_.status, "INVALID_REQUEST") << "a start has a heading";
+}
+
 TEST_F(PathPlannerTest, AnUnknownFrameIsATransformError) {
   startPlanner({"_tf_timeout:=0.05", "_base_frame:=nowhere"});
   publishMap(kRoom);

@@ -1,8 +1,11 @@
 #include "ros/planning/requests/request_poses.h"
 
+#include <cmath>
 #include <functional>
+#include <limits>
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/ros/occupancy_conversion.h"
 
 namespace grid_path_planner::nodes {
 
@@ -28,26 +31,35 @@ geometry_msgs::Quaternion levelOrientation() {
 
 }  // namespace
 
-std::optional<double> oldestStart(const PathPlannerNodeOptions& options) {
-  return options.tf_timeout > 0.0 ? std::make_optional(options.tf_timeout) : std::nullopt;
+Placing placingInMap(const PathPlannerNodeOptions& options, const std::string& map_frame,
+                     const base::StopToken& stop) {
+  Placing by{map_frame, options.tf_timeout, Moving::WITH_VEHICLE, frameName(options.base_frame),
+             options.zero_heading};
+  if (options.tf_timeout <= 0.0) by.max_age = std::numeric_limits<double>::infinity();
+  by.map_frame = options.map_frame;
+  by.wait = options.tf_timeout;
+  by.stop = stop;
+  return by;
 }
 
 ViaRequest posesOf(const PlanningRequest& request, const PathPlannerNodeOptions& options,
                    const FrameLookup& transforms, const std::string& map_frame,
                    const base::StopToken& stop) {
-  const auto inMap = [&](const geometry_msgs::PoseStamped& pose) {
-    return transforms.poseIn(map_frame, pose, options.map_frame, options.tf_timeout, stop);
-  };
+  const Placing by = placingInMap(options, map_frame, stop);
+  Placing start_by = by;
+  start_by.zero_heading = ZeroHeading::REFUSED;
   ViaRequest poses;
   if (!request.order.empty())
     poses.order = base::choiceFromName<planning::ViaOrder>("order", request.order);
-  if (!request.closed) poses.goal = named("goal", [&] { return inMap(request.goal); });
+  if (!request.closed)
+    poses.goal = named("goal", [&] { return transforms.place(request.goal, by); });
   poses.start = named("start", [&] {
-    if (request.start) return inMap(*request.start);
-    return transforms.poseOf(options.base_frame, map_frame, options.tf_timeout, stop,
-                             oldestStart(options));
+    return request.start ? transforms.place(*request.start, start_by)
+                         : transforms.placeVehicle(by).level();
   });
   if (request.closed) poses.goal = poses.start;
+  poses.any_goal_heading = std::isnan(poses.goal.yaw);
+  if (poses.any_goal_heading) poses.goal.yaw = poses.start.yaw;
   if (request.via_points.size() > planning::kMostVia)
     throw InputError("there are " + std::to_string(request.via_points.size()) +
                      " via-points, and at most " + std::to_string(planning::kMostVia) +
@@ -55,7 +67,7 @@ ViaRequest posesOf(const PlanningRequest& request, const PathPlannerNodeOptions&
   for (geometry_msgs::PoseStamped via : request.via_points) {
     via.pose.orientation = levelOrientation();
     const std::string name = "via-point " + std::to_string(poses.via.size() + 1);
-    poses.via.push_back(named(name, [&] { return inMap(via); }).position);
+    poses.via.push_back(named(name, [&] { return transforms.place(via, by); }).position);
   }
   if (options.goal_z_from == GoalZ::VEHICLE) {
     poses.goal.position.z() = poses.start.position.z();

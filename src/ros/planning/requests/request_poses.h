@@ -3,7 +3,6 @@
 //   const planning::ViaRequest poses = posesOf(request, options, transforms, "map", stop);
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "grid_path_planner/base/stop_token.h"
@@ -13,10 +12,12 @@
 
 namespace grid_path_planner::nodes {
 
-// How old the vehicle's pose may be where a plan starts from it, in seconds; none: as old as it is.
-std::optional<double> oldestStart(const PathPlannerNodeOptions& options);
+// Of poses in the map's frame by transforms of at most options.tf_timeout, which are waited for as long; 0: of any age, and
+// without a wait.
+Placing placingInMap(const PathPlannerNodeOptions& options, const std::string& map_frame,
+                     const base::StopToken& stop = {});
 
-// Transforms are waited for as options.tf_timeout says. Throws InputError for poses that are none, an order
+// Poses are placed by placingInMap(). Throws InputError for poses that are none, an order
 // that is none and more via-points than planning::kMostVia, TransformError, Stopped.
 planning::ViaRequest posesOf(const PlanningRequest& request, const PathPlannerNodeOptions& options,
                              const FrameLookup& transforms, const std::string& map_frame,
