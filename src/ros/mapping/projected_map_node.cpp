@@ -33,6 +33,7 @@ constexpr double kCloudPeriod = 0.01;    // s of the wall clock between two look
 constexpr double kFirstCloudWait = 5.0;  // s of the wall clock without the first cloud
 constexpr double kDecayPeriod = 1.0;     // s of ROS time; decay visits every occupied voxel
 constexpr double kLongestDecay = 10.0;   // s of ROS time that a step of the decay counts at most
+constexpr double kOldestDepth = 3.0;     // s of ROS time, of the vehicle's that the band refers to
 
 void warnIgnoredParameters(const ros::NodeHandle& private_nh, std::vector<std::string>& known) {
   for (const std::string& name : unknownParameters(private_nh, known)) {
@@ -128,6 +129,11 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
                                                       autosave_.get(), options.autosave_period);
   service_spinner_.start();
 
+  on_jump_back_ = NodeTime::of(nh).onJumpBack([this](double seconds) {
+    ROS_WARN_STREAM("ROS time went back by "
+                    << seconds << " s: tf and the clouds that wait are forgotten, the map stays");
+    queue_.clear("ROS time went back");
+  });
   using CloudEvent = ros::MessageEvent<const sensor_msgs::PointCloud2>;
   cloud_subscriber_ = subscribeBounded<sensor_msgs::PointCloud2, const CloudEvent&>(
       nh, "cloud_in", {kAnyNumber, kMostWaitingBytes},
@@ -216,16 +222,8 @@ void ProjectedMapNode::warnOfSilence() const {
 
 void ProjectedMapNode::onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
   silence_timer_.stop();
-  checkClock();
   queue_.add(cloud);
   resolveTransforms();
-}
-
-void ProjectedMapNode::checkClock() {
-  if (!clock_.jumpedBack()) return;
-  ROS_WARN("ROS time jumped back: tf and the clouds that wait are forgotten, the map stays");
-  transforms_.clear();
-  queue_.clear("time jumped back");
 }
 
 // What was seen before ~reset does not come back by itself.
@@ -241,7 +239,6 @@ void ProjectedMapNode::insertAll(MapModel& map) {
 }
 
 void ProjectedMapNode::resolveTransforms() {
-  checkClock();
   if (queue_.resolveTransforms()) postInsertion();
 }
 
@@ -338,8 +335,9 @@ bool ProjectedMapNode::updateVehicleHeight(MapModel& map) {
   if (!followsVehicle(map)) return true;
   const ProjectedMapOptions& options = map.options();
   try {
-    map.setVehicleHeight(
-        transforms_.transform(options.frame_id, options.base_frame_id).transform.translation.z);
+    const Placed vehicle = transforms_.placeVehicle(
+        {options.frame_id, kOldestDepth, Moving::WITH_VEHICLE, options.base_frame_id});
+    map.setVehicleHeight(vehicle.pose.translation().z());
     return true;
   } catch (const TransformError& error) {
     static LogThrottle seldom(10.0);

@@ -28,9 +28,9 @@
 #include <memory>
 #include <string>
 
-#include "ros/guard/clock.h"
 #include "ros/guard/incoming/bounded_subscription.h"
 #include "ros/guard/node_files.h"
+#include "ros/guard/node_time.h"
 #include "ros/input/frame_lookup.h"
 #include "ros/mapping/cloud_queue.h"
 #include "ros/mapping/map_autosave.h"
@@ -65,7 +65,6 @@ class ProjectedMapNode {
   void startPublishing(const mapping::ProjectedMapOptions& options);
   void warnOfSilence() const;
   void onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud);
-  void checkClock();
   void resolveTransforms();
   void postInsertion();
   void postPublishing();
@@ -89,7 +88,6 @@ class ProjectedMapNode {
   std::string filename_;  // the option that was used last, and the file that it named
   std::string loaded_;
   FrameTransforms transforms_;
-  ClockWatch clock_;
   CloudQueue queue_;
   std::unique_ptr<MapAutosave> autosave_;  // null: none
   std::unique_ptr<MappingThread> thread_;
@@ -103,6 +101,7 @@ class ProjectedMapNode {
   std::unique_ptr<MappingServices> services_;
   std::unique_ptr<MappingDiagnostics> diagnostics_;
   std::unique_ptr<Reconfigurable<ProjectedMapConfig, mapping::ProjectedMapOptions>> reconfigurable_;
+  std::shared_ptr<void> on_jump_back_;
   ros::Subscriber cloud_subscriber_;
   ros::SteadyTimer cloud_timer_;
   ros::SteadyTimer publish_timer_;

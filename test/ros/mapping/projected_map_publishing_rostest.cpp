@@ -139,6 +139,31 @@ TEST_F(Publishing, AHeartbeatTellsUpToWhenTheMapHoldsWhatWasSeen) {
   for (const auto& update : updates.all()) EXPECT_LE(update.header.stamp, ros::Time::now());
 }
 
+// They were stamped when they were sent: whoever handed the map on could not tell that its camera had ceased.
+TEST_F(Publishing, MapsAndUpdatesAreStampedWithTheNewestCloudInThem) {
+  std::vector<std::string> arguments = bounds_;
+  arguments.insert(arguments.end(), {"_heartbeat_period:=0.05", "_full_map_period:=3600"});
+  startMapping(arguments);
+  const ros::Time seen = ros::Time::now() - ros::Duration(5.0);
+  clouds_.publish(cloudOf(wallAt(2.0F), "map", seen));
+  ASSERT_TRUE(insertsAll(1));
+  const Maps maps(nh_, "projected_map");
+  const Updates updates(nh_, "projected_map_updates");
+  ASSERT_TRUE(becomes(maps, 2.05, 0.05, 100));
+  EXPECT_EQ(maps.all().front().header.stamp, seen);
+  ASSERT_TRUE(beats(updates, [&](const ros::Time& stamp) { return stamp == seen; }));
+  const ros::Time again = seen + ros::Duration(1.0);
+  clouds_.publish(cloudOf(wallAt(2.0F), "map", again));
+  EXPECT_TRUE(beats(updates, [&](const ros::Time& stamp) { return stamp == again; }))
+      << "a scene that does not change is seen all the same";
+  clouds_.publish(cloudOf(wallAt(3.0F), "map", seen));
+  const auto update = updates.waitFor(0, [](const auto& each) { return each.width > 0; });
+  ASSERT_TRUE(update);
+  EXPECT_GT(update->header.stamp, again)
+      << "with a cloud that is older it comes after what was sent before,";
+  EXPECT_LT((update->header.stamp - again).toSec(), 1e-3) << "and holds nothing newer";
+}
+
 TEST_F(Publishing, EveryNewSubscriberGetsAFreshWholeMap) {
   std::vector<std::string> arguments = bounds_;
   arguments.push_back("_always_send_full_map:=false");
@@ -325,6 +350,32 @@ TEST_F(Publishing, TheBandFollowsTheVehiclesDepth) {
   EXPECT_TRUE(becomes(maps, 1.05, 0.05, 100));
   placeSensor(0.0, 0.0, 2.0, "base_link", ros::Time::now() + ros::Duration(0.1));
   EXPECT_TRUE(becomes(maps, 1.05, 0.05, -1));
+}
+
+// What was seen: 30 s after tf had ceased the band was still about the depth that the vehicle had had, and heartbeats said
+// that the map was kept up.
+TEST_F(Publishing, NoMapIsMadeAboutADepthOfLongAgo) {
+  startMapping({"_projection_reference:=vehicle", "_projection_min_z:=-0.2",
+                "_projection_max_z:=0.2", "_base_frame_id:=base_link", "_heartbeat_period:=0.05"});
+  const Maps maps(nh_, "projected_map");
+  const Updates updates(nh_, "projected_map_updates");
+  placeSensor(0.0, 0.0, -0.3, "base_link");
+  publish(wallAt(1.0F, -0.45F, 0.0F));
+  ASSERT_TRUE(becomes(maps, 1.05, 0.05, 100));
+  ASSERT_TRUE(
+      node_->says("projected_map waits for the vehicle's depth: the pose of base_link in map is"));
+  const std::size_t reports = diagnostics_.count();
+  ASSERT_TRUE(diagnostics_.waitForMoreThan(reports + 2));  // what was sent before is there
+  const std::size_t seen = maps.count(), beats = updates.count();
+  publish(wallAt(2.0F, -0.45F, 0.0F));
+  ASSERT_TRUE(insertsAll(2));
+  ASSERT_TRUE(diagnostics_.waitForMoreThan(diagnostics_.count() + 2));
+  EXPECT_EQ(maps.count(), seen);
+  EXPECT_EQ(updates.count(), beats);
+  ASSERT_TRUE(test::waitFor([&] {
+    placeSensor(0.0, 0.0, -0.3, "base_link");
+    return maps.count() > seen && updates.count() > beats;
+  })) << "and it goes on with tf";
 }
 
 // A driver went on by a map that lacked what was seen, since heartbeats said that the map was kept up.
