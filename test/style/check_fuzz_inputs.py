@@ -8,13 +8,13 @@ from fuzz_inputs import INPUTS, NOT_A_NODE, Part, Without
 COMMENT = re.compile(r"//.*")
 TYPE = r"([A-Za-z][\w:]*)"
 HANDLERS = [re.compile(pattern) for pattern in (
-    r"\bsubscribe(?:Checked|Bounded)<\s*" + TYPE, r"\badvertiseService(?:BySpec)?<\s*" + TYPE,
+    r"\bsubscribe(?:Checked|Bounded)<\s*" + TYPE, r"\bInput<\s*" + TYPE + ">", r"\badvertiseService(?:BySpec)?<\s*" + TYPE,
     r"\bActionCaller<\s*" + TYPE, r"\bActionServer<\s*(?:\w+::)*" + TYPE + r">(?:::initialize|\s+\w+;)",
     r"\b(NavigatePathServer) \w+;", r"\bconversion\(&" + TYPE, r"\bmake_unique<Reconfigurable<\w+,\s*(?:\w+::)*" + TYPE,
     r"\bReconfigurable<\w+,\s*" + TYPE + r"> server_")]
 READER = re.compile(r"\b(readWholeFile|loadYamlFile|fopen|popen|receiveLine)\(|\bifstream\b|\bBagReader \w+|\bRegularFile\b[ &(]")
 # Those that all others use.
-DEFINITIONS = ("base/files.cpp", "ros/guard/incoming/", "ros/guard/parameters.h")
+DEFINITIONS = ("base/files.cpp", "ros/guard/incoming/", "ros/input/input.h", "ros/guard/parameters.h")
 # What comes past the judges of lengths.
 UNCHECKED = re.compile(r"\b(?:nh|nh_|node|private_nh|own)\.(subscribe|advertiseService)\b")
 TARGET = re.compile(r"^FUZZ_TARGET\((\w+),", re.MULTILINE)
