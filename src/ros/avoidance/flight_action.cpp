@@ -49,7 +49,6 @@ FlightAction::~FlightAction() {
 }
 
 void FlightAction::onGoal() {
-  hands_.notice_time();
   if (active_) {
     hands_.cancel("replaced by another goal");  // whatever becomes of that
     finish("CANCELLED", "replaced by another goal");
@@ -93,7 +92,6 @@ void FlightAction::readFile(const std::string& filename) {
           result = [what = std::string(error.what())]() -> Path { throw base::InputError(what); };
         }
         const auto use = [this, result, number, handovers] {
-          hands_.notice_time();
           if (active_ && number == goals_ && std::exchange(is_read_, false))
             start(result, false, handovers);
         };

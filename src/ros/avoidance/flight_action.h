@@ -30,7 +30,6 @@ class FlightAction {
     // Returns it in the map's frame. `handovers`: as handovers() said when it was given. Throws InputError,
     // TransformError.
     std::function<path::Path(const path::Path&, bool along, unsigned handovers)> fly;
-    std::function<void()> notice_time;  // that went back, before a goal of now
     std::function<unsigned()> handovers;
     std::function<void(const std::string& reason)> cancel;
     std::function<path::Path(const nav_msgs::Path&)> read;  // throws InputError

@@ -139,8 +139,7 @@ void FlightCommander::tick() {
 }
 
 void FlightCommander::sendCommand() {
-  const bool time_went_back = secondsBetween(command_.time, ros::Time::now()) < 0.0;
-  if (time_went_back || !hold_.why(master_timeout_).empty()) command_.velocity = {};
+  if (!hold_.why(master_timeout_).empty()) command_.velocity = {};
   if (hold_.stopped()) return send({});
   if (hold_.isManual()) return keep({});
   if (!flies_) return;

@@ -97,7 +97,11 @@ class FlightCommander {
   base::BodyVelocity sent_;
 
   DirectPublisher velocity_, setpoint_;
-  ControlThread thread_{[this] { tick(); }};
+  ControlThread thread_{[this] { tick(); },
+                        [this] {
+                          if (flies_) send({});
+                        },
+                        [this](double) { command_.velocity = {}; }};
   ros::Subscriber stop_subscriber_, manual_subscriber_;
 };
 

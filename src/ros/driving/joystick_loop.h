@@ -73,7 +73,10 @@ class JoystickLoop {
   bool started_ = false;
 
   DirectPublisher publisher_, manual_publisher_;
-  ControlThread thread_{[this] { tick(); }};
+  ControlThread thread_{[this] { tick(); },
+                        [this] {
+                          if (commands_) publish({});
+                        }};
   ros::Subscriber joy_subscriber_, stop_subscriber_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <chrono>
+#include <exception>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "base/current_error.h"
+#include "ros/guard/process/memory_failures.h"
 #include "ros/guard/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
@@ -92,6 +94,11 @@ class Work : public ros::CallbackInterface {
   const std::function<void()> work_;
 };
 
+void logGivenUp(const std::string& what, const std::string& error) {
+  static LogThrottle seldom(1.0);
+  ROS_ERROR_STREAM_COND(seldom.isDue(), what << " was given up, the node goes on: " << error);
+}
+
 }  // namespace
 
 void GuardedQueue::addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t owner) {
@@ -143,13 +150,14 @@ void GuardedQueue::release() {
 }
 
 void tellGivenUp(const std::string& what, const std::string& error) {
-  static LogThrottle seldom(1.0);
-  ROS_ERROR_STREAM_COND(seldom.isDue(), what << " was given up, the node goes on: " << error);
+  if (std::current_exception()) noteCurrentError();
+  logGivenUp(what, error);
 }
 
 void tellGivenUp(const char* what) noexcept {
+  noteCurrentError();
   try {
-    tellGivenUp(what, currentErrorText());
+    logGivenUp(what, currentErrorText());
   } catch (...) {
     return;
   }

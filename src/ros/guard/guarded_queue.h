@@ -53,10 +53,10 @@ class GuardedQueue : public ros::CallbackQueueInterface {
   std::map<std::uint64_t, std::shared_ptr<CallbackOwner>> owners_;
 };
 
-// Into the log, at most once a second: an exception ended `what`, and nothing else.
+// Into the log, at most once a second: an exception ended `what`, and nothing else. In a catch block std::bad_alloc is counted.
 void tellGivenUp(const std::string& what, const std::string& error);
-// The exception that is being handled. Where there is no memory to tell it, nothing is told. Precondition: called in a
-// catch block.
+// The exception that is being handled. Where there is no memory to tell it, nothing is told; std::bad_alloc is counted
+// (process/memory_failures.h). Precondition: called in a catch block.
 void tellGivenUp(const char* what) noexcept;
 
 // Calls what waits in a queue. For the loop of a thread that serves one: roscpp's queue itself wants memory, too.

@@ -9,6 +9,7 @@
 #include <new>
 #include <utility>
 
+#include "ros/guard/process/memory_failures.h"
 #include "ros/guard/scheduling/cpu_share.h"
 #include "ros/guard/scheduling/realtime_priority.h"
 
@@ -104,13 +105,22 @@ bool ControlThread::askAtLast(const std::function<void()>& work) noexcept {
   return false;
 }
 
-// An owner that can say why it failed catches that itself.
 void ControlThread::tick() {
   try {
-    time().tellJumps();
+    guarded_.time().tellJumps();
     tick_();
   } catch (...) {
-    return;
+    noteCurrentError();
+    giveUpTick();
+  }
+}
+
+// In a catch block.
+void ControlThread::giveUpTick() noexcept {
+  try {
+    on_failure_();
+  } catch (...) {
+    return;  // the next tick tries again
   }
 }
 

@@ -1,12 +1,11 @@
 // A thread that commands a vehicle: it ticks at a rate by the wall clock, and serves a callback queue of its own.
 //
-//   ControlThread thread([&] { tick(); });
+//   ControlThread thread([&] { tick(); }, [&] { publish({}); });
 //   nh.setCallbackQueue(&thread.queue());         // of the topics that must be obeyed whatever else the node does
 //   thread.start(50.0, 1);                        // Hz, real-time priority
 //   thread.ask([&] { thread.setRate(20.0); });    // in the thread, and waited for
 //
-// What the tick uses belongs to this thread alone: others hand it work, and what is done where ROS time goes back is a
-// listener of time(), told before the next work or tick. Guaranteed: work that comes is done at
+// What the tick uses belongs to this thread alone: others hand it work. Guaranteed: work that comes is done at
 // once, in its order; ticks that were missed are not made up for; it takes half of a processor at most, however
 // long ticks and work are, since before a real-time thread no other comes. Not guaranteed: that the machine gives
 // it a processor in time, which takes a real-time priority.
@@ -17,6 +16,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -30,8 +30,14 @@ namespace grid_path_planner::nodes {
 
 class ControlThread {
  public:
-  // What the tick throws ends that tick.
-  explicit ControlThread(std::function<void()> tick) : tick_(std::move(tick)) {}
+  // What the tick throws ends that tick: `on_failure` is called in its place, which sends a zero. Twice within 10 s for want of
+  // memory ends the process (process/memory_failures.h). `on_jump_back` is told before the next tick and the next work.
+  explicit ControlThread(
+      std::function<void()> tick, std::function<void()> on_failure = [] {},
+      NodeTime::Listener on_jump_back = [](double) {})
+      : tick_(std::move(tick)),
+        on_failure_(std::move(on_failure)),
+        on_jump_back_(guarded_.time().onJumpBack(std::move(on_jump_back))) {}
   ~ControlThread() { stop(); }
   ControlThread(const ControlThread&) = delete;
   ControlThread& operator=(const ControlThread&) = delete;
@@ -43,8 +49,6 @@ class ControlThread {
 
   // Outlives the subscriptions that it serves.
   ros::CallbackQueueInterface& queue() { return guarded_; }
-
-  NodeTime& time() { return guarded_.time(); }
 
   // Hands `work` over.
   void post(std::function<void()> work);
@@ -80,11 +84,12 @@ class ControlThread {
 
   void doAndWait(const std::function<void()>& work);
   Clock::duration period() const;
+  void giveUpTick() noexcept;
   void run();
   void workOrTick();
   void takePriority();
 
-  const std::function<void()> tick_;
+  const std::function<void()> tick_, on_failure_;
   double rate_ = 1.0;
   int priority_ = 0;
   Clock::time_point next_tick_;
@@ -94,6 +99,7 @@ class ControlThread {
 
   ros::CallbackQueue queue_;
   GuardedQueue guarded_{queue_};
+  const std::shared_ptr<void> on_jump_back_;
   std::atomic<bool> done_{false};
   std::thread thread_;
 };
