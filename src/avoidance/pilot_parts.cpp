@@ -94,7 +94,7 @@ void Pilot::Parts::setTime(double time) {
   elapsed_ = has_time_ && time > time_ ? time - time_ : 0.0;
   time_ = time;
   has_time_ = true;
-  surroundings.noticeTime(time);
+  surroundings.forgetTheFuture(time);
 }
 
 void Pilot::Parts::see(const Frame& frame) {

@@ -113,7 +113,7 @@ void Surroundings::forget() {
   new_ = started_ = false;
 }
 
-void Surroundings::noticeTime(double now) {
+void Surroundings::forgetTheFuture(double now) {
   if (origin_ && std::max(*origin_, frame_time_.value_or(*origin_)) > now) forget();
 }
 

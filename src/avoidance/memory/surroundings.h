@@ -28,7 +28,7 @@ class Surroundings {
   bool refresh(const Eigen::Vector3d& position, const PilotOptions& options);
   void forget();
   // What was seen is forgotten where it was stamped later than now, before the time was known.
-  void noticeTime(double now);
+  void forgetTheFuture(double now);
 
   const OpenSpace& space() const { return space_; }
   // Of the newest frame that could be used, at most the time at which it came; none: there was none.

@@ -1,7 +1,5 @@
 #include "ros/guard/node_time.h"
 
-#include <ros/console.h>
-
 #include <chrono>
 #include <sstream>
 #include <stdexcept>
@@ -9,7 +7,6 @@
 #include <utility>
 
 #include "ros/guard/guarded_queue.h"
-#include "ros/guard/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -94,13 +91,6 @@ NodeTime& NodeTime::of(const ros::NodeHandle& nh) {
   const auto queue = dynamic_cast<GuardedQueue*>(nh.getCallbackQueue());
   if (queue == nullptr) throw std::logic_error("a node's callbacks come by a GuardedQueue");
   return queue->time();
-}
-
-bool NodeTime::isThere() const {
-  if (ros::Time::isValid()) return true;
-  static LogThrottle seldom(5.0);
-  ROS_WARN_COND(seldom.isDue(), "use_sim_time is set and no /clock has come yet: waiting for it");
-  return false;
 }
 
 ros::Time NodeTime::since() const {

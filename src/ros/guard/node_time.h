@@ -41,15 +41,12 @@ class NodeTime {
   // That of the queue of `nh`, which it does not outlive. Throws std::logic_error where that is no GuardedQueue.
   static NodeTime& of(const ros::NodeHandle& nh);
 
-  // Whether there is a ROS time. With use_sim_time and no /clock yet there is none, every stamp would be 0, and every 5 s a
-  // warning says so.
-  bool isThere() const;
+  // As hasTime().
+  static bool isThere() { return hasTime(); }
   // 0 where there is none.
   static ros::Time now() { return normalized(ros::Time::now()); }
   // Of the last jump back that was told here, or when there first was time; 0 where there is none yet.
   ros::Time since() const;
-  // How many jumps were told here, modulo 4096: what was made while this was another number is of another time.
-  unsigned jumps() const { return jumps_; }
 
   // Why a message stamped `stamp` is of another time, to be told after "A path stamped 7.0 is not driven: ": it is from before
   // since(), or ahead by more than clocks of nodes may differ, as what a publisher that latches sends again after time went
@@ -73,7 +70,7 @@ class NodeTime {
  private:
   void tell(double seconds) const;
 
-  std::atomic<unsigned> jumps_;
+  std::atomic<unsigned> jumps_;          // until then, modulo 4096
   std::atomic<unsigned> told_;           // jumps_, once all listeners have returned
   std::atomic<std::uint64_t> since_{0};  // us; 0: there is no time yet
   std::atomic<bool> went_back_{false};

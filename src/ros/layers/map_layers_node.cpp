@@ -122,6 +122,7 @@ MapLayersNode::MapLayersNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
       private_nh, options_, [this](const MapLayersOptions& options) { use(options); });
   diagnostics_.add("layers", this, &MapLayersNode::diagnose);
   diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
+  on_jump_back_ = NodeTime::of(nh).onJumpBack([this](double seconds) { timeWentBack(seconds); });
   listen();
   startPublishing();
 }
@@ -253,7 +254,7 @@ ros::Time MapLayersNode::liveStamp() const {
 }
 
 void MapLayersNode::onScan(const sensor_msgs::LaserScan::ConstPtr& scan) {
-  if (!noticeTime()) return;
+  if (!NodeTime::isThere()) return;
   scans_.add(scan);
   lay([this] { takeScans(); });
 }
@@ -269,18 +270,12 @@ void MapLayersNode::onClearScan() {
                                                            << " are forgotten, as clear_scan asks");
 }
 
-// False while there is no ROS time.
-bool MapLayersNode::noticeTime() {
-  if (!clock_.hasTime()) return false;
-  if (const auto back = clock_.jumpedBack()) {
-    ROS_WARN_STREAM("ROS time went back by " << *back << " s: scans and tf are forgotten");
-    transforms_.clear();
-    scans_.clear();
-    lay([this] { map_.forgetScans(); });
-    scan_source_.forget();
-    expired_ = {};
-  }
-  return true;
+void MapLayersNode::timeWentBack(double seconds) {
+  ROS_WARN_STREAM("ROS time went back by " << seconds << " s: scans and tf are forgotten");
+  scans_.clear();
+  lay([this] { map_.forgetScans(); });
+  scan_source_.forget();
+  expired_ = {};
 }
 
 void MapLayersNode::takeScans() {
@@ -332,7 +327,7 @@ void MapLayersNode::layAgain() {
 }
 
 void MapLayersNode::publish() {
-  if (!noticeTime()) return;
+  if (!NodeTime::isThere()) return;
   layAgain();
   lay([this] { layAndPublish(); });
 }

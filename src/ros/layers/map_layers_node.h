@@ -29,8 +29,8 @@
 #include <vector>
 
 #include "layers/layered_map.h"
-#include "ros/guard/clock.h"
 #include "ros/guard/node_files.h"
+#include "ros/guard/node_time.h"
 #include "ros/input/frame_lookup.h"
 #include "ros/input/map_receiver.h"
 #include "ros/layers/layer_source.h"
@@ -71,7 +71,7 @@ class MapLayersNode {
   ros::Time liveStamp() const;
   void onScan(const sensor_msgs::LaserScan::ConstPtr& scan);
   void onClearScan();
-  bool noticeTime();
+  void timeWentBack(double seconds);
   void takeScans();
   // What changes the map: where it fails, for want of memory, all is laid again.
   template <class Work>
@@ -93,7 +93,6 @@ class MapLayersNode {
   layers::MapLayersOptions options_;
   layers::Zones zones_;
   FrameTransforms transforms_;
-  ClockWatch clock_;
   layers::LayeredMap map_;
   LayerSource static_source_, live_source_, scan_source_, keep_out_source_, speed_source_;
   bool live_dropped_ = false, scan_dropped_ = false;
@@ -109,6 +108,7 @@ class MapLayersNode {
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer publish_timer_, heartbeat_timer_, diagnostics_timer_;
   std::unique_ptr<Reconfigurable<MapLayersConfig, layers::MapLayersOptions>> reconfigurable_;
+  std::shared_ptr<void> on_jump_back_;
 };
 
 }  // namespace grid_path_planner::nodes

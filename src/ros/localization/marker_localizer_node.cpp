@@ -103,6 +103,7 @@ MarkerLocalizerNode::MarkerLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& p
       options_(loadMarkerLocalizerOptions(private_nh, files)),
       layout_(loadLayout(options_, files)),
       transforms_(nh),
+      time_(NodeTime::of(nh)),
       publisher_(nh_),
       sightings_(options_.learning),
       diagnostics_(nh, private_nh, private_nh.getNamespace()),
@@ -112,6 +113,7 @@ MarkerLocalizerNode::MarkerLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& p
       private_nh, options_, [this](const MarkerLocalizerOptions& options) { use(options); });
   diagnostics_.add("markers", this, &MarkerLocalizerNode::diagnose);
   diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
+  on_jump_back_ = time_.onJumpBack([this](double seconds) { timeWentBack(seconds); });
   listen(private_nh);
 }
 
@@ -158,18 +160,12 @@ void MarkerLocalizerNode::usePanel(const std::optional<PanelPose>& panel) {
   if (panel_) publisher_.publishPanel(*panel_, options_.map_frame, ros::Time::now());
 }
 
-// False while there is no ROS time.
-bool MarkerLocalizerNode::noticeTime() {
-  if (!clock_.hasTime()) return false;
-  if (const auto back = clock_.jumpedBack()) {
-    ROS_WARN_STREAM("ROS time went back by " << *back << " s: images and tf are forgotten");
-    transforms_.clear();
-    last_stamp_ = {};
-    const std::lock_guard<std::mutex> lock(mutex_);
-    sightings_.clear();
-    tally_.newest.reset();
-  }
-  return true;
+void MarkerLocalizerNode::timeWentBack(double seconds) {
+  ROS_WARN_STREAM("ROS time went back by " << seconds << " s: images and tf are forgotten");
+  last_stamp_ = {};
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sightings_.clear();
+  tally_.newest.reset();
 }
 
 void MarkerLocalizerNode::onInfo(const sensor_msgs::CameraInfo& message) {
@@ -184,10 +180,10 @@ void MarkerLocalizerNode::onInfo(const sensor_msgs::CameraInfo& message) {
 }
 
 void MarkerLocalizerNode::onImage(const sensor_msgs::ImageConstPtr& message) {
-  if (!noticeTime()) return;
+  if (!time_.isThere()) return;
   const ros::Time stamp = message->header.stamp;
   try {
-    checkStamp(stamp, late_clock_.timeFor(stamp, localization::kMostAhead), last_stamp_,
+    checkStamp(stamp, time_.nowAfter(stamp, localization::kMostAhead), last_stamp_,
                options_.max_age);
     if (!calibration_) throw InputError("no camera_info that can be used has come yet");
     checkSameCamera(message->header.frame_id, calibration_frame_);
@@ -259,7 +255,6 @@ void MarkerLocalizerNode::summarize(diagnostic_updater::DiagnosticStatusWrapper&
 }
 
 void MarkerLocalizerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  noticeTime();  // before the first image after a jump, whose tf may be there already
   const std::lock_guard<std::mutex> lock(mutex_);
   const vision::MarkerFix fix = tally_.newest ? tally_.newest->fix : vision::MarkerFix();
   const double age = secondsBetween(tally_.newest_stamp, ros::Time::now());

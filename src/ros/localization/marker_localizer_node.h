@@ -25,8 +25,8 @@
 #include <vector>
 
 #include "grid_path_planner/base/task_queue.h"
-#include "ros/guard/clock.h"
 #include "ros/guard/node_files.h"
+#include "ros/guard/node_time.h"
 #include "ros/input/frame_lookup.h"
 #include "ros/input/input_record.h"
 #include "ros/localization/marker_localizer_options.h"
@@ -56,7 +56,7 @@ class MarkerLocalizerNode {
   void listen(ros::NodeHandle& private_nh);
   void use(MarkerLocalizerOptions options);
   void usePanel(const std::optional<vision::PanelPose>& panel);
-  bool noticeTime();
+  void timeWentBack(double seconds);
   void onInfo(const sensor_msgs::CameraInfo& message);
   void onImage(const sensor_msgs::ImageConstPtr& message);
   void lookAt(const MarkerImage& image, const base::StopToken& stop);
@@ -76,8 +76,7 @@ class MarkerLocalizerNode {
   MarkerLocalizerOptions options_;
   const vision::MarkerLayout layout_;
   FrameTransforms transforms_;
-  ClockWatch clock_;
-  LateClock late_clock_;
+  NodeTime& time_;
   MarkerPublisher publisher_;
   InputRecord infos_{"camera_info"};
   std::optional<vision::CameraCalibration> calibration_;
@@ -95,6 +94,7 @@ class MarkerLocalizerNode {
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer diagnostics_timer_;
   std::unique_ptr<Reconfigurable<MarkerLocalizerConfig, MarkerLocalizerOptions>> reconfigurable_;
+  std::shared_ptr<void> on_jump_back_;
   base::TaskQueue looker_;  // ends first
 };
 

@@ -70,7 +70,7 @@ TEST_F(NavigateDrive, ARestartedNodeDoesNotDriveYesterdaysPath) {
   navigate_.reset();
   ASSERT_TRUE(standsStill());
   startNavigate();  // the topic is latched
-  EXPECT_TRUE(navigate_->says("is not driven: navigate_path started at"));
+  EXPECT_TRUE(navigate_->says("is not driven: the node started at"));
   EXPECT_TRUE(staysStill());
   navigate_.reset();
   startNavigate({"_follow_latched:=true"});

@@ -77,7 +77,10 @@ class Commanders {
 
 class Takeover : public test::StillTest {
  protected:
-  Takeover() { ros::param::del("/teleop_joy"); }
+  Takeover() {
+    ros::param::del("/teleop_joy");
+    nh_.setCallbackQueue(&queue_);
+  }
 
   void startJoystick(std::uint32_t commanders = 2) {
     // It is never let go by a test that stalls.
@@ -117,6 +120,7 @@ class Takeover : public test::StillTest {
   Commanders commanders_{nh_};
   ros::Publisher joy_ = nh_.advertise<sensor_msgs::Joy>("joy", 10);
   ros::Publisher stop_ = nh_.advertise<std_msgs::Bool>("stop", 1, true);
+  GuardedQueue queue_{*ros::getGlobalCallbackQueue()};
   std::unique_ptr<Process> joystick_;
 };
 

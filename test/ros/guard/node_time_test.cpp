@@ -106,8 +106,10 @@ TEST_F(NodeTimeTest, EachQueueOfAProcessIsToldOnce) {
   other_behind.callAvailable();
   callback();
   EXPECT_EQ(std::pair(here, there), std::pair(1, 1));
-  EXPECT_EQ(time_.jumps(), other.time().jumps());
-  EXPECT_EQ(NodeTime().jumps(), time_.jumps()) << "one that begins now has nothing to be told";
+  NodeTime begins_now;
+  const auto now_listening = begins_now.onJumpBack([&](double) { ++here; });
+  begins_now.tellJumps();
+  EXPECT_EQ(here, 1) << "it has nothing to be told";
 }
 
 TEST_F(NodeTimeTest, AListenerThatThrowsKeepsNoOtherFromBeingTold) {
@@ -197,8 +199,7 @@ TEST(NodeTime, TimeThatSeveralThreadsReadDoesNotGoBack) {
 TEST_F(NodeTimeTest, AThreadThatCommandsIsToldBeforeItsNextWorkAndWaitsForNobody) {
   int jumps = 0;
   std::atomic<bool> other_tells{false}, may_end{false};
-  ControlThread control([] {});
-  const auto listening = control.time().onJumpBack([&](double) { ++jumps; });
+  ControlThread control([] {}, [] {}, [&](double) { ++jumps; });
   const auto slow = time_.onJumpBack([&](double) {
     other_tells = true;
     while (!may_end) std::this_thread::yield();

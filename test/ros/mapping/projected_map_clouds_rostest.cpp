@@ -191,7 +191,7 @@ TEST_F(HostileClouds, TimeThatJumpsBackClearsWhatWaitsAndKeepsTheMap) {
     clouds_.publish(cloudOf(wallAt(2.0F), "sensor", ros::Time(1000.1)));
     ASSERT_TRUE(reports("waiting", "1"));
     tick(500.0);
-    EXPECT_TRUE(drops("time jumped back", "1"));
+    EXPECT_TRUE(drops("ROS time went back", "1"));
     placeSensor(0.0, 0.0, 0.0, "sensor", ros::Time(500.0));
     clouds_.publish(cloudOf(wallAt(1.0F, -0.45F, 0.0F), "sensor", ros::Time(500.0)));
     EXPECT_TRUE(becomes(maps, 1.05, 0.05, 100)) << "the new time is mapped";
