@@ -22,7 +22,7 @@ void NavigatePathNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
 
 void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const MapLife life = map_->life();
-  const std::string why = whyNoMap(life, options_.map_timeout);
+  const std::string why = whyNoMap(life, {options_.map_timeout, options_.map_data_timeout});
   const std::string misfit =
       options_.check_map ? map_->misfit(options_.limits.thresholds) : std::string();
   if (!options_.check_map)
@@ -37,8 +37,8 @@ void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& 
   status.add("topic", life.topic);
   if (!life.map.grid) return;
   status.add("publisher", life.map.publisher);
-  status.add("heartbeat", life.heartbeat);
-  status.add("age (s)", secondsBetween(life.newest, ros::Time::now()));
+  status.add("heartbeat", life.map.data.beats());
+  if (!life.map.data.newest().isZero()) status.add("age (s)", life.map.data.age(Instant::now()));
   status.add("last sign of life (s ago)", life.silence());
 }
 

@@ -279,6 +279,7 @@ void MapReceiver::onUpdate(const UpdateEvent& event) {
   {
     std::lock_guard<std::mutex> lock(mutex_);
     heartbeat_ = {message.header.stamp, Clock::now(), publisher};
+    if (publisher == map_.publisher) map_.data.noteHeartbeat(message.header.stamp, Instant::now());
   }
   on_heartbeat_();
 }
@@ -355,9 +356,15 @@ MapChange MapReceiver::apply(const UpdateEvent& event) {
 }
 
 MapChange MapReceiver::store(ReceivedMap map, std::optional<std::vector<CellRect>> changed) {
+  const Instant now = Instant::now();
   map.grid = grids_.current();
-  map.received = Clock::now();
+  map.received = now.wall;
   std::lock_guard<std::mutex> lock(mutex_);
+  if (map.publisher == map_.publisher)
+    map.data = map_.data;
+  else if (heartbeat_ && heartbeat_->publisher == map.publisher)
+    map.data.noteHeartbeat(heartbeat_->stamp, now);
+  if (map.sender == map.publisher) map.data.noteMap(map.stamp, now);
   map_ = std::move(map);
   refusal_.clear();
   return {map_, std::move(changed)};

@@ -44,6 +44,7 @@
 #include "grid_path_planner/grid/occupancy.h"
 #include "ros/guard/incoming/bounded_subscription.h"
 #include "ros/guard/master/master_watch.h"
+#include "ros/input/map_data.h"
 #include "ros/input/recent_updates.h"
 #include "ros/input/update_sequence.h"
 
@@ -56,6 +57,7 @@ struct ReceivedMap {
   std::string publisher;                             // the node that sent it whole
   std::string sender;                                // of the newest message in it: a node
   std::chrono::steady_clock::time_point received{};  // that message
+  MapData data;                                      // by what `publisher` says
 };
 
 struct MapChange {

@@ -14,31 +14,33 @@ LayeredMapPublisher::LayeredMapPublisher(ros::NodeHandle nh)
       speed_limits_(nh.advertise<nav_msgs::OccupancyGrid>("speed_limit", 1, true)) {}
 
 void LayeredMapPublisher::publish(LayeredMap& map, const std::string& frame_id,
-                                  double full_map_period) {
+                                  const ros::Time& newest, double full_map_period) {
   owes_limits_ = map.takeNewSpeedLimits() || owes_limits_;
   if (owes_limits_)
     speed_limits_.publish(occupancyToMessage(map.speedLimits(), frame_id, ros::Time::now()));
   owes_limits_ = false;
   if (topic_.hasSubscribers())
-    publishMap(map, frame_id, full_map_period);
+    publishMap(map, frame_id, newest, full_map_period);
   else
     withdraw();
 }
 
 void LayeredMapPublisher::publishMap(LayeredMap& map, const std::string& frame_id,
-                                     double full_map_period) {
+                                     const ros::Time& newest, double full_map_period) {
   const bool owed = !std::exchange(sent_, false);
   const bool new_geometry = map.takeNewGeometry();
   const std::vector<CellRect> changed = map.takeChanged();
   const bool whole = topic_.takeNewSubscriber() || new_geometry || owed ||
                      topic_.wholeMapIsDue(full_map_period) ||
                      (!changed.empty() && topic_.needsWholeMaps());
-  const ros::Time now = ros::Time::now();
-  if (whole)
-    topic_.send(occupancyToMessage(map.merged(), frame_id, now));
-  else
-    for (const CellRect& rect : updateRects(changed))
-      topic_.send(updateOf(map.merged(), rect, frame_id, now));
+  if (whole || !changed.empty()) {
+    const ros::Time stamp = topic_.stampFor(newest, ros::Time::now());
+    if (whole)
+      topic_.send(occupancyToMessage(map.merged(), frame_id, stamp));
+    else
+      for (const CellRect& rect : updateRects(changed))
+        topic_.send(updateOf(map.merged(), rect, frame_id, stamp));
+  }
   sent_ = true;
 }
 

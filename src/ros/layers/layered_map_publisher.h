@@ -2,7 +2,7 @@
 //
 // A whole map is sent for a new subscriber, when the geometry changed, on every change for a subscriber that does not
 // take the updates, after a time without a map, and full_map_period after an update; else what changed. Without
-// subscribers nothing is sent or latched. speed_limit is latched and sent whole when it changes.
+// subscribers nothing is sent or latched. Maps and updates are stamped as MapTopic::stampFor has it. speed_limit is latched and sent whole when it changes.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -19,15 +19,18 @@ class LayeredMapPublisher {
  public:
   explicit LayeredMapPublisher(ros::NodeHandle nh);
 
-  // What changed since the last call, and what new subscribers need.
-  void publish(layers::LayeredMap& map, const std::string& frame_id, double full_map_period);
+  // What changed since the last call, and what new subscribers need; `newest`: up to when the map holds what all sensors saw,
+  // 0 without one.
+  void publish(layers::LayeredMap& map, const std::string& frame_id, const ros::Time& newest,
+               double full_map_period);
   // Stamped `newest`, if a map was sent that still holds.
   void publishHeartbeat(const std::string& frame_id, const ros::Time& newest);
   // There is no map now: who subscribes later gets none.
   void withdraw();
 
  private:
-  void publishMap(layers::LayeredMap& map, const std::string& frame_id, double full_map_period);
+  void publishMap(layers::LayeredMap& map, const std::string& frame_id, const ros::Time& newest,
+                  double full_map_period);
 
   MapTopic topic_;
   ros::Publisher speed_limits_;

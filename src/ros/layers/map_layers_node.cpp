@@ -226,7 +226,7 @@ void MapLayersNode::onStaticMap(const MapChange& change) {
 }
 
 void MapLayersNode::onLiveMap(const MapChange& change) {
-  take(live_source_, liveStamp(), [&] {
+  take(live_source_, change.map.data.newest(), [&] {
     checkFrame(change.map.frame_id, options_);
     map_.setLive(change.map.grid, change.changed);
   });
@@ -244,13 +244,6 @@ void MapLayersNode::onLiveHeartbeat() {
   const auto heartbeat = live_maps_.heartbeat();
   if (live_source_.there() && heartbeat->publisher == live_maps_.latest().publisher)
     live_source_.beat(heartbeat->stamp);
-}
-
-// projected_map stamps its maps with the time of sending, and its heartbeat with the newest cloud in them.
-ros::Time MapLayersNode::liveStamp() const {
-  const ReceivedMap map = live_maps_.latest();
-  const auto heartbeat = live_maps_.heartbeat();
-  return heartbeat && heartbeat->publisher == map.publisher ? heartbeat->stamp : map.stamp;
 }
 
 void MapLayersNode::onScan(const sensor_msgs::LaserScan::ConstPtr& scan) {
@@ -342,7 +335,7 @@ void MapLayersNode::layAndPublish() {
     return;
   }
   if (!before.empty()) ROS_INFO("All sources are there: the map is published");
-  publisher_.publish(map_, options_.map_frame, options_.full_map_period);
+  publisher_.publish(map_, options_.map_frame, newestOfAll(), options_.full_map_period);
   if (!before.empty()) publishHeartbeat();
 }
 
@@ -351,15 +344,14 @@ void MapLayersNode::publishHeartbeat() {
 }
 
 ros::Time MapLayersNode::newestOfAll() const {
-  ros::Time newest = static_source_.stamp();
-  bool first = true;
-  for (const LayerSource* source : {&live_source_, &scan_source_}) {
-    const bool dropped = source == &live_source_ ? live_dropped_ : scan_dropped_;
-    if (!source->used() || dropped || source->stamp().isZero()) continue;
-    newest = first ? source->stamp() : std::min(newest, source->stamp());
-    first = false;
-  }
-  return newest;
+  ros::Time oldest;
+  const auto count = [&](const ros::Time& newest) {
+    if (!newest.isZero()) oldest = oldest.isZero() ? newest : std::min(oldest, newest);
+  };
+  if (const MapData base = static_maps_.latest().data; base.beats()) count(base.newest());
+  if (live_source_.used() && !live_dropped_) count(live_source_.stamp());
+  if (scan_source_.used() && !scan_dropped_) count(scan_source_.stamp());
+  return oldest;
 }
 
 void MapLayersNode::warnOfZonesOutside() const {

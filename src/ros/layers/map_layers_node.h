@@ -15,7 +15,8 @@
 // warning in diagnostics. With stale_source drop a laser or live
 // map that has said nothing for source_timeout, since the start or clear_scan too, is done without. What cannot be used
 // changes nothing.
-// The heartbeat is stamped with what the map holds of all sources: the oldest of their newest data. ROS time that goes
+// Maps, updates and heartbeats are stamped with what the map holds of all sensors: the oldest of what the live map, the laser and a
+// static map that has heartbeats delivered last, so that who drives by it holds when any of them has ceased. ROS time that goes
 // back forgets scans and tf, not the maps.
 #pragma once
 
@@ -67,8 +68,6 @@ class MapLayersNode {
   void onStaticMap(const MapChange& change);
   void onLiveMap(const MapChange& change);
   void onLiveHeartbeat();
-  // Up to when the live map holds what was seen.
-  ros::Time liveStamp() const;
   void onScan(const sensor_msgs::LaserScan::ConstPtr& scan);
   void onClearScan();
   void timeWentBack(double seconds);
@@ -84,6 +83,7 @@ class MapLayersNode {
   std::string whyHeld();
   // The same for a source that expires; where that is so and stale sources are dropped, it is.
   std::string whyStale(const LayerSource& source, layers::Layer layer, bool& dropped);
+  // Up to when the map holds what all sensors saw that are used; 0 without one.
   ros::Time newestOfAll() const;
   void warnOfZonesOutside() const;
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -21,10 +21,11 @@ ProjectedMapPublisher::ProjectedMapPublisher(ros::NodeHandle nh, bool latch,
                                              std::function<void()> on_subscriber)
     : topic_(std::move(nh), "projected_map", latch, std::move(on_subscriber)) {}
 
-void ProjectedMapPublisher::publish(MapModel& map, const ros::Time& stamp) {
+void ProjectedMapPublisher::publish(MapModel& map, const ros::Time& now) {
   if (!topic_.hasSubscribers()) return;
+  newest_cloud_ = std::min(newest_cloud_, now);  // ROS time went back
   try {
-    send(map, stamp, owes_map_);
+    send(map, now, owes_map_);
   } catch (...) {
     owes_map_ = true;
     throw;
@@ -47,16 +48,16 @@ bool ProjectedMapPublisher::wholeMapIsWanted(const ProjectionChange& change,
          (options.always_send_full_map || topic_.needsWholeMaps() || !sent_);
 }
 
-void ProjectedMapPublisher::send(MapModel& map, const ros::Time& stamp, bool whole) {
+void ProjectedMapPublisher::send(MapModel& map, const ros::Time& now, bool whole) {
   const OccupancyGrid& grid = map.grid();
   const ProjectionChange change = map.takeChange();
   const std::string& frame_id = map.options().frame_id;
   if (wholeMapIsWanted(change, map.options()) || whole) {
-    topic_.send(occupancyToMessage(grid, frame_id, stamp));
+    topic_.send(occupancyToMessage(grid, frame_id, topic_.stampFor(newest_cloud_, now)));
     sent_ = true;
     warnOfFloor(grid, map.options());
   } else if (!change.cells.empty()) {
-    topic_.send(updateOf(grid, change.cells, frame_id, stamp));
+    topic_.send(updateOf(grid, change.cells, frame_id, topic_.stampFor(newest_cloud_, now)));
   }
 }
 
@@ -69,7 +70,7 @@ void ProjectedMapPublisher::warnOfFloor(const OccupancyGrid& grid,
 }
 
 void ProjectedMapPublisher::countCloud(const ros::Time& stamp, const ros::Time& now) {
-  if (stamp > newest_cloud_ || newest_cloud_ > now) newest_cloud_ = std::min(stamp, now);
+  newest_cloud_ = std::min(std::max(stamp, newest_cloud_), now);
 }
 
 void ProjectedMapPublisher::publishHeartbeat(const std::string& frame_id) {

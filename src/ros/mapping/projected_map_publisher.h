@@ -7,9 +7,11 @@
 // Otherwise an update holds the smallest rectangle around the changed cells. Without subscribers
 // nothing is projected: the changes wait in the tree.
 //
+// Maps and updates are stamped with the newest cloud in them (MapTopic::stampFor); before the first, when they are sent.
+//
 // A heartbeat is an update of 0x0 cells. It tells receivers that the mapping lives and up to when
-// the map holds what was seen: its stamp is that of the newest cloud in the map as published, 0
-// before the first. While a map cannot be made or sent there is none, so that a driver holds: the map that it has
+// the map holds what was seen: its stamp is that of the newest cloud in the map as published, also where that
+// changed nothing; 0 before the first. While a map cannot be made or sent there is none, so that a driver holds: the map that it has
 // lacks what was seen since.
 //
 // Not guaranteed: a current map for a second subscriber inside of one process. roscpp gives it the
@@ -33,15 +35,14 @@ class ProjectedMapPublisher {
   ProjectedMapPublisher(ros::NodeHandle nh, bool latch, std::function<void()> on_subscriber);
 
   // Publishes the changes since the last call, if there are subscribers. In the mapping thread.
-  void publish(mapping::MapModel& map, const ros::Time& stamp);
+  void publish(mapping::MapModel& map, const ros::Time& now);
   // Instead, while the map cannot be made. In the mapping thread.
   void owe();
   // Since the last publication failed, or owe(). Thread-safe.
   bool owesMap() const { return owes_map_; }
 
   // A cloud of this stamp is in the tree. Stamps of clouds may be any number: what lies after `now`
-  // counts as `now`, and what was counted before ROS time jumped back is forgotten. In the mapping
-  // thread.
+  // counts as `now`, as does what was counted before ROS time jumped back. In the mapping thread.
   void countCloud(const ros::Time& stamp, const ros::Time& now);
   // Of the clouds counted. In the mapping thread.
   const ros::Time& newestCloud() const { return newest_cloud_; }
@@ -51,7 +52,7 @@ class ProjectedMapPublisher {
  private:
   bool wholeMapIsWanted(const mapping::ProjectionChange& change,
                         const mapping::ProjectedMapOptions& options);
-  void send(mapping::MapModel& map, const ros::Time& stamp, bool whole);
+  void send(mapping::MapModel& map, const ros::Time& now, bool whole);
   // Once.
   void warnOfFloor(const grid::OccupancyGrid& grid, const mapping::ProjectedMapOptions& options);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "grid/fewer_rects.h"
+#include "ros/guard/clock.h"
 #include "ros/guard/outgoing/latched_message.h"
 #include "ros/messages/map_announcement.h"
 
@@ -18,6 +19,7 @@ namespace {
 
 constexpr int kQueue = 100;  // updates that wait for a subscriber
 constexpr std::size_t kMostAtOnce = kQueue / 2;
+constexpr double kMostStampsAhead = 1e-3;  // s; a million stamps while /clock stands still
 
 }  // namespace
 
@@ -95,6 +97,13 @@ bool MapTopic::wholeMapIsDue(double period) const {
   std::lock_guard<std::mutex> lock(mutex_);
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - sent_at_;
   return updated_ && passed.count() >= period;
+}
+
+ros::Time MapTopic::stampFor(const ros::Time& newest, const ros::Time& now) {
+  const ros::Time data = newest.isZero() ? now : std::min(newest, now);
+  const bool went_back = secondsBetween(now, stamp_) > kMostStampsAhead;
+  ++stamp_.nsec;
+  return stamp_ = went_back ? data : std::max(data, normalized(stamp_));
 }
 
 nav_msgs::OccupancyGrid MapTopic::placeOf(const nav_msgs::OccupancyGrid& map) {

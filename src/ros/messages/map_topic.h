@@ -7,6 +7,9 @@
 //
 // A whole map of another place or size than the one before is announced to those who take the updates (map_announcement.h).
 //
+// Maps and updates are stamped with the newest measurement in them, by which whoever hands them on tells how old they are
+// (stampFor()); their order can be told by it too.
+//
 // One thread sends; the callbacks come in that of the node's queue. Subscribers are told apart by
 // the names of their nodes, so nodelets of one manager count as one.
 #pragma once
@@ -51,6 +54,10 @@ class MapTopic {
   // Whether updates were sent since the last whole map, and that was so many seconds ago.
   bool wholeMapIsDue(double period) const;
 
+  // Of what is sent next and holds measurements up to `newest`, as far as they are not later than `now`; 0: none, then `now`.
+  // Later than what was stamped before, by 1 ns where nothing newer is in it, unless ROS time went back.
+  ros::Time stampFor(const ros::Time& newest, const ros::Time& now);
+
   void send(const nav_msgs::OccupancyGrid& map);
   void send(const map_msgs::OccupancyGridUpdate& update);
   // An update of no cells, after which no whole map is due.
@@ -75,6 +82,7 @@ class MapTopic {
   bool new_subscriber_ = false;
   bool updated_ = false;  // since the last whole map
   std::chrono::steady_clock::time_point sent_at_;
+  ros::Time stamp_;                // the last of stampFor()
   nav_msgs::OccupancyGrid place_;  // of the map that was sent last, without its cells
   ros::Publisher maps_;
   ros::Publisher updates_;

@@ -1,8 +1,9 @@
 #include "ros/planning/plan_diagnostics.h"
-#include "ros/guard/scheduling/guarded_timer.h"
 
 #include <optional>
 #include <string>
+
+#include "ros/guard/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
 
@@ -23,6 +24,7 @@ PlanDiagnostics::PlanDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
 
 void PlanDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const ReceivedMap map = server_.maps().latest();
+  const double timeout = server_.settings().options.map_data_timeout;
   const std::string refusal = server_.maps().refusal();
   if (!map.grid)
     status.summary(DiagnosticStatus::WARN, "no map has come yet");
@@ -32,6 +34,9 @@ void PlanDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& sta
       server_.settings().options.planner.costmap.thresholds;
   if (const std::string problem = map_fit_.problem(map.grid, thresholds); !problem.empty())
     status.summary(DiagnosticStatus::WARN, problem);
+  if (const auto old = map.data.problem(Instant::now(), 0.0, timeout))
+    status.summary(DiagnosticStatus::WARN,
+                   "the map on " + server_.maps().topic() + " is too old: " + *old);
   if (const std::string lost = server_.maps().lost(); !lost.empty())
     status.summary(DiagnosticStatus::WARN, lost);
   if (!refusal.empty())
@@ -41,11 +46,12 @@ void PlanDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("width", map.grid->width());
   status.add("height", map.grid->height());
   status.add("resolution", map.grid->geometry().resolution());
-  status.add("age_s", secondsBetween(map.stamp, ros::Time::now()));
+  status.add("age_s", map.data.newest().isZero() ? secondsBetween(map.stamp, ros::Time::now())
+                                                 : map.data.age(Instant::now()));
 }
 
 void PlanDiagnostics::reportPlan(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const std::optional<PlanningServer::Outcome> outcome = server_.lastOutcome();
+  const std::optional<PlanningServer::Outcome> outcome = server_.lastAnswer()->outcome;
   if (!outcome) {
     status.summary(DiagnosticStatus::OK, "nothing has been asked yet");
     return;

@@ -42,6 +42,28 @@ TEST_F(MapLayersLoss, AMapThatLacksAnUpdateHoldsTheMapUntilAWholeOneComes) {
   }
 }
 
+// Who drives by it holds when one of the sensors has ceased, whatever the others go on saying.
+TEST_F(MapLayersLoss, TheMapIsStampedWithTheOldestOfWhatItsSensorsDeliveredLast) {
+  const test::Latest<nav_msgs::OccupancyGrid> maps(nh_, "projected_map");
+  const auto stamped = [&](const ros::Time& stamp) {
+    return test::waitFor([&] {
+      const auto beats = beats_.all();
+      return !beats.empty() && beats.back().width == 0 && beats.back().header.stamp == stamp;
+    });
+  };
+  publishStatic(kOpenRoom);
+  start({"_source_timeout:=60"});
+  EXPECT_TRUE(stamped(ros::Time())) << "it is of a file alone";
+  node_.reset();
+  placeLaser();
+  const ros::Time seen = ros::Time::now() - ros::Duration(5.0);
+  start({"_use_live_map:=true", "_use_scan:=true", "_source_timeout:=60"});
+  live_.publish(occupancyToMessage(test::AsciiMap(kOpenRoom).map, "map", seen));
+  ASSERT_TRUE(becomesBySeeing(5.0F, 5, 0, 100));
+  EXPECT_TRUE(stamped(seen));
+  EXPECT_LT((maps.all().back().header.stamp - seen).toSec(), 1e-3);
+}
+
 // Of 256 updates in one instant, which their queue does not hold, the oldest were lost.
 TEST_F(MapLayersLoss, WhatChangesInManyPlacesIsSentInFewUpdates) {
   const std::vector<std::string> large(400, std::string(400, '.'));

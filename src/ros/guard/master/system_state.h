@@ -25,11 +25,15 @@ std::optional<SystemState> systemStateOf(XmlRpc::XmlRpcValue lists);
 // None where the master does not answer within `seconds`.
 std::optional<SystemState> systemState(double seconds);
 
+// Whether it offers a service whose name ends with /`name`; none where the master does not answer within `seconds`.
+std::optional<bool> offersService(const std::string& node, const std::string& name, double seconds);
+
 // Publishers answer within milliseconds; one that was killed never does, and the master knows it on.
 constexpr double kLongestWaitForPublishers = 1.0;  // s
 
 // Returns once `subscriber` is connected with as many publishers as the master knows of its topic, or after
-// `seconds` of the steady clock: what they have latched follows at once. At once where the master does not answer.
+// `seconds` of the steady clock, and says so: what they have latched follows at once. Says so, too, where the master does
+// not answer, and returns.
 void waitForPublishers(const ros::Subscriber& subscriber,
                        double seconds = kLongestWaitForPublishers);
 

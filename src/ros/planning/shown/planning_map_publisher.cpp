@@ -85,7 +85,8 @@ std::optional<std::vector<CellRect>> PlanningMapPublisher::changed(
 }
 
 void PlanningMapPublisher::publish(const CostGrid& costs, const CostChanges& changes,
-                                   const std::string& frame_id, double full_map_period) {
+                                   const std::string& frame_id, const ros::Time& newest,
+                                   double full_map_period) {
   if (!topic_.hasSubscribers()) {
     published_.reset();
     topic_.forget();
@@ -93,13 +94,15 @@ void PlanningMapPublisher::publish(const CostGrid& costs, const CostChanges& cha
   }
   const auto cells = changed(costs, changes, frame_id);
   const bool whole = topic_.takeNewSubscriber() || !cells || topic_.wholeMapIsDue(full_map_period);
-  const ros::Time now = ros::Time::now();
   published_.reset();  // until it is sent
-  if (whole || (!cells->empty() && topic_.needsWholeMaps()))
-    topic_.send(planningMapMessage(costs, frame_id, now));
-  else
-    for (const auto& update : planningMapUpdates(costs, updateRects(*cells), frame_id, now))
-      topic_.send(update);
+  if (whole || !cells->empty()) {
+    const ros::Time stamp = topic_.stampFor(newest, ros::Time::now());
+    if (whole || topic_.needsWholeMaps())
+      topic_.send(planningMapMessage(costs, frame_id, stamp));
+    else
+      for (const auto& update : planningMapUpdates(costs, updateRects(*cells), frame_id, stamp))
+        topic_.send(update);
+  }
   published_ = Published{costs.revision(), costs.maxWeight(), frame_id};
 }
 

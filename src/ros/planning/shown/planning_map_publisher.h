@@ -32,9 +32,9 @@ class PlanningMapPublisher {
   PlanningMapPublisher(ros::NodeHandle nh, std::function<void()> on_subscriber);
 
   // What differs from the costmap of the last call, as the subscribers need it. `changes`: up to
-  // `costs`. From one thread.
+  // `costs`, which hold what was measured until `newest`. From one thread.
   void publish(const costmap::CostGrid& costs, const costmap::CostChanges& changes,
-               const std::string& frame_id, double full_map_period);
+               const std::string& frame_id, const ros::Time& newest, double full_map_period);
   // Whether publish() has a whole map to send though nothing changed.
   bool wholeMapIsDue(double full_map_period) const { return topic_.wholeMapIsDue(full_map_period); }
 
