@@ -135,6 +135,12 @@ std::optional<PathEnd> PathEnds::goal(const PathEnd& start, Plan& failure) const
   const Eigen::Vector2d position = planar(request_.goal);
   const std::optional<Cell> cell = costs_.geometry().cellAt(position);
   if (!cell) {
+    // As move_base's clients have it, who ask for places at the border of what is known.
+    const auto beside =
+        nearestCell(costs_.geometry(), position, options_.tolerance, [](Cell) { return true; });
+    if (beside) {
+      if (const auto substitute = substituteGoal(start, "is outside the map")) return substitute;
+    }
     failure.status = Status::GOAL_OUTSIDE_MAP;
     failure.message = "goal " + positionText(position) + outsideMap();
     return std::nullopt;

@@ -92,6 +92,26 @@ TEST(PathPlanner, SaysWhereTheThresholdsDoNotFitTheMap) {
   EXPECT_FALSE(says(none, "occupied_min")) << none.message;
 }
 
+// explore_lite asks for frontiers at the border, 0.3 m beyond it with a tolerance of 1 m, and had GOAL_OUTSIDE_MAP.
+TEST(PathPlanner, AGoalBesideTheMapEndsAtTheNearestPlaceWithinTheTolerance) {
+  const OccupancyGrid map = AsciiMap({"...",  //
+                                      "..#"})
+                                .map;
+  PlannerOptions options;
+  options.tolerance = 1.0;
+  const Pose free = poseAt({0.5, 0.5});
+  const Plan plan = planBetween(map, free, poseAt({3.3, 0.5}, 0.0, 0.7), options);
+  ASSERT_TRUE(plan.found()) << plan.message;
+  EXPECT_EQ(plan.path.poses.back().position.head<2>(), Eigen::Vector2d(2.5, 0.5));
+  EXPECT_EQ(plan.path.poses.back().yaw, 0.7);
+  EXPECT_TRUE(says(plan, "goal is outside the map: the path ends 0.8")) << plan.message;
+  EXPECT_EQ(planBetween(map, free, poseAt({3.3, 1.5}, 0.0, 0.7), options).status,
+            Status::GOAL_OUTSIDE_MAP)
+      << "none is free there";
+  EXPECT_EQ(planBetween(map, free, poseAt({3.6, 0.5}), options).status, Status::GOAL_OUTSIDE_MAP);
+  EXPECT_EQ(planBetween(map, free, poseAt({3.3, 0.5})).status, Status::GOAL_OUTSIDE_MAP);
+}
+
 TEST(PathPlanner, NamesTheEndThatIsWrong) {
   const OccupancyGrid map = AsciiMap({"..#",  //
                                       "?.."})
