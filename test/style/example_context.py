@@ -36,6 +36,10 @@ CONTEXT = {
     "guarded_queue.h": "extern ros::NodeHandle nh;", "guarded_timer.h": "extern ros::NodeHandle nh; void checkTime();", "straight_runs.h": "extern const std::vector<Eigen::Vector2d> points;", "occupied_cells.h": "extern const grid::OccupancyGrid map; extern const grid::OccupancyThresholds thresholds; extern const Eigen::Vector2d point;", "clearance_meter.h": "extern std::shared_ptr<const grid::OccupancyGrid> map; extern const grid::OccupancyThresholds thresholds; extern const Path path;", "huge_pages.h": "#include <vector>\nextern std::vector<char> cells; extern const std::size_t count;",
     "log_throttle.h": "#include <ros/console.h>\n", "octree_topic.h": "#include <ros/node_handle.h>\n#include <sensor_msgs/PointCloud2.h>\nextern ros::NodeHandle nh; extern const mapping::MapModel map; extern ros::SubscriberStatusCallback connected; sensor_msgs::PointCloud2 centresOf(const mapping::MapModel&);",
     "master_watch.h": "void halt();", "turning_points.h": "extern std::vector<Cell> cells; extern const CostGrid& map;",
+    "map_data.h": "#include <map_msgs/OccupancyGridUpdate.h>\n#include <nav_msgs/OccupancyGrid.h>\n"
+                  "extern nav_msgs::OccupancyGrid map; extern map_msgs::OccupancyGridUpdate beat; extern double driven; void hold(const std::string&);",
+    "map_order.h": "#include <nav_msgs/OccupancyGrid.h>\nextern MapOrder order; extern std::string publisher; extern RecentUpdates::Update update; "
+                   "extern nav_msgs::OccupancyGrid map; extern MapOrder::Clock::time_point asked_at; void askForAWholeMap(); void take(const nav_msgs::OccupancyGrid&);",
     "update_sequence.h": "#include <map_msgs/OccupancyGridUpdate.h>\n#include <ros/message_event.h>\nextern UpdateSequence sequence;"
                          "extern ros::MessageEvent<map_msgs::OccupancyGridUpdate const> event;"
                          "extern map_msgs::OccupancyGridUpdate message; void askForAWholeMap();",

@@ -75,7 +75,8 @@ INPUTS = {
         "Goal": Part(("goal_stamps claimed_lengths", "the stamps; what is asked for has targets of its own"))},
     "ros/messages/navigate_path_action.h": {
         "NavigatePathAction": Part(("claimed_lengths path_message file_name", "its path and its name of a file"))},
-    "ros/input/map_receiver.cpp": {"map_msgs::OccupancyGridUpdate": "map_update", "nav_msgs::OccupancyGrid": "map_message"},
+    "ros/input/map_receiver.cpp": {"map_msgs::OccupancyGridUpdate": "map_update"},
+    "ros/input/whole_map_subscription.cpp": {"nav_msgs::OccupancyGrid": "map_message"},
     "ros/input/transform_receiver.cpp": {"tf2_msgs::TFMessage": "transform_message frame_messages rival_transforms"},
     "ros/driving/drive_loop.cpp": {"std_msgs::Bool": HANDED_OVER},
     "ros/driving/go_to_pose_node.cpp": {"GoToPoseOptions": "vehicle_config_message",

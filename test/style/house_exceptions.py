@@ -41,7 +41,6 @@ LARGE_CLASSES = {  # below src/ros/: members
     "LocalPlannerNode": 31,
     "MapAutosave": 19,
     "MapLayersNode": 28,
-    "MapReceiver": 28,
     "MarkerLocalizerNode": 22,
     "NavigatePathNode": 31,
     "PanelWidgets": 20,

@@ -26,11 +26,6 @@ using grid::OccupancyGrid;
 
 namespace {
 
-constexpr double kMasterSilence =
-    2.0;  // s, after which it counts as gone: roscpp waits for it without end
-constexpr std::chrono::seconds kAnswer(2);  // to wait for a whole map that was asked for
-constexpr std::chrono::seconds kLongestAnswer(
-    64);  // where none comes, or none that has what was lost
 constexpr double kRetryPeriod =
     1.0;  // s, after which what failed for want of memory is tried again
 
@@ -83,18 +78,16 @@ void applyUpdate(const map_msgs::OccupancyGridUpdate& update, const CellRect& re
 
 void MapReceiver::start(ros::NodeHandle nh, OnChange on_change, std::function<void()> on_heartbeat,
                         const std::string& topic) {
-  master_ = MasterWatch::shared();
-  name_ = topic;
   on_change_ = std::move(on_change);
   on_heartbeat_ = std::move(on_heartbeat);
-  nh_ = nh;
-  subscribeToMaps();
+  on_jump_back_ = NodeTime::of(nh).onJumpBack([this](double) { order_.timeWentBack(); });
+  maps_.start(nh, topic, [this](const MapEvent& event) { onMap(event); });
   updates_ = subscribeBounded<map_msgs::OccupancyGridUpdate, const UpdateEvent&>(
-      nh, name_ + "_updates", {kAnyNumber, kMostWaitingBytes},
+      nh, topic + "_updates", {kAnyNumber, kMostWaitingBytes},
       [this](const UpdateEvent& event) { onUpdate(event); });
   retry_timer_ = guardedTimer(nh, kRetryPeriod, [this] { retry(); });
   std::lock_guard<std::mutex> lock(mutex_);
-  topic_ = map_subscriber_.getTopic();
+  topic_ = maps_.topic();
 }
 
 std::string MapReceiver::topic() const {
@@ -119,7 +112,8 @@ std::optional<MapHeartbeat> MapReceiver::heartbeat() const {
 
 void MapReceiver::shutdown() {
   retry_timer_.stop();
-  map_subscriber_.shutdown();
+  on_jump_back_.reset();
+  maps_.shutdown();
   updates_.shutdown();
 }
 
@@ -139,70 +133,46 @@ std::string MapReceiver::whyIncomplete() const {
   return topic() + " lacks changes: " + lost();
 }
 
-void MapReceiver::subscribeToMaps() {
-  map_subscriber_ = subscribeChecked<nav_msgs::OccupancyGrid, const MapEvent&>(
-      nh_, name_, 1, [this](const MapEvent& event) { onMap(event); });
-}
-
 void MapReceiver::onMap(const MapEvent& event) {
   if (isNotYet(event)) return;
-  const ros::Time newest = latest().stamp;
-  const bool lacks = (isOlder(event) || isAwaited(event.getPublisherName())) &&
-                     !recent_.complete(event.getConstMessage()->header.stamp);
+  const MapOrder::Whole whole = order_.judge(
+      event.getPublisherName(), event.getConstMessage()->header.stamp, maps_.askedAt());
   // A latched map of before, where a new one was asked for and follows.
-  if (lacks && Clock::now() - asked_at_ < kAnswer) return;
+  if (whole.lacks && maps_.isAsked()) return;
   MapChange change;
   try {
-    change = use(event);
+    change = taking([&] { return use(event, whole); });
   } catch (const InputError& error) {
-    refuse(map_subscriber_.getTopic(), error.what());
-    return;
-  } catch (...) {
-    lost_one_ = owes_map_ = true;  // the grid may have it, and nobody was told
-    throw;
+    return refuse(maps_.topic(), error.what());
   }
   tellTraits(event);
-  if (lacks) noteLoss("A map came that is older than its updates", newest);
+  if (whole.lacks) order_.noteLoss();
+  order_.tookWhole(whole);
+  if (!whole.has_lost) noteComplete();
+  if (whole.lacks) noteLoss("A map came that is older than its updates");
   tell(std::move(change));
 }
 
-// Whether its publisher sent an update stamped later, unless ROS time jumped back.
-bool MapReceiver::isOlder(const MapEvent& event) const {
-  const ros::Time stamp = event.getConstMessage()->header.stamp;
-  const ReceivedMap before = latest();
-  return before.grid && before.publisher == event.getPublisherName() && !stamp.isZero() &&
-         stamp < before.stamp && before.stamp <= ros::Time::now();
+template <class Take>
+MapChange MapReceiver::taking(Take take) {
+  try {
+    return take();
+  } catch (const InputError&) {
+    throw;
+  } catch (...) {
+    lost_one_ = owes_map_ = true;
+    throw;
+  }
 }
 
-MapChange MapReceiver::use(const MapEvent& event) {
+MapChange MapReceiver::use(const MapEvent& event, const MapOrder::Whole& whole) {
   const nav_msgs::OccupancyGrid& message = *event.getConstMessage();
   const std::string frame_id = frameName(message.header.frame_id);
-  const std::string sender = event.getPublisherName();
-  const ros::Time &sent = message.header.stamp, now = ros::Time::now();
-  const bool has_lost =
-      sender == latest().publisher && !sent.isZero() && sent <= lost_at_ && lost_at_ <= now;
-  // Of those that were sent after a map that was announced, the places are others in one from before.
-  const bool is_before =
-      isAwaited(sender) && sent < announced_->stamp && asked_at_ < announced_->came;
-  const auto newer =
-      recent_.since(sender, sent, now, is_before ? announced_->stamp : ros::TIME_MAX);
+  const auto& newer = whole.newer;
   auto changed =
       newer.empty() ? takeGrid(message, frame_id) : takeGrid(withUpdates(message, newer), frame_id);
-  const ros::Time stamp = newer.empty() ? sent : newer.back()->header.stamp;
-  MapChange change = store({nullptr, frame_id, stamp, sender, sender}, std::move(changed));
-  recent_.forgetBefore(sender, sent, now);
-  whole_of_ = sender;
-  whole_stamp_ = sent;
-  whole_heard_ = now;
-  whole_came_last_ = true;
-  // What another node announced says nothing of this one's maps.
-  if (announced_ && (announced_->publisher != sender || (isAwaited(sender) && !is_before)))
-    announced_.reset();
-  if (has_lost) return change;
-  until_asked_again_ = kAnswer;
-  std::lock_guard<std::mutex> lock(mutex_);
-  lost_.clear();
-  return change;
+  const ros::Time& stamp = newer.empty() ? whole.stamp : newer.back()->header.stamp;
+  return store({nullptr, frame_id, stamp, whole.publisher, whole.publisher}, std::move(changed));
 }
 
 std::optional<std::vector<CellRect>> MapReceiver::takeGrid(const nav_msgs::OccupancyGrid& message,
@@ -220,8 +190,7 @@ std::optional<std::vector<CellRect>> MapReceiver::takeGrid(const nav_msgs::Occup
   return changed;
 }
 
-void MapReceiver::noteLoss(const std::string& what, const ros::Time& at) {
-  lost_at_ = std::min(at, ros::Time::now());  // /clock may be late
+void MapReceiver::noteLoss(const std::string& what) {
   const std::string sentence = what + ": a whole map is asked for";
   static LogThrottle seldom(5.0);
   ROS_WARN_STREAM_COND(seldom.isDue(), sentence);
@@ -230,18 +199,27 @@ void MapReceiver::noteLoss(const std::string& what, const ros::Time& at) {
     if (lost_.empty()) lost_since_ = Clock::now();
     lost_ = sentence;
   }
-  askForAWholeMap();
+  maps_.ask();
+}
+
+void MapReceiver::noteComplete() {
+  maps_.isAnswered();
+  std::lock_guard<std::mutex> lock(mutex_);
+  lost_.clear();
 }
 
 void MapReceiver::retry() {
-  if (std::exchange(lost_one_, false))
-    noteLoss("A change of the map could not be taken", latest().stamp);
-  else if (!lost().empty())
-    askForAWholeMap();
-  else if (announced_ && isAwaited(announced_->publisher) &&
-           Clock::now() - announced_->came > kAnswer)
-    noteLoss("A map of another place or size was announced and has not come", latest().stamp);
-  if (!map_subscriber_ && master_->silence() < kMasterSilence) subscribeToMaps();
+  const auto since = order_.awaitedSince();
+  if (std::exchange(lost_one_, false)) {
+    order_.noteLoss();
+    noteLoss("A change of the map could not be taken");
+  } else if (!lost().empty()) {
+    maps_.ask();
+  } else if (since && Clock::now() - *since > WholeMapSubscription::kAnswer) {
+    order_.noteLoss();
+    noteLoss("A map of another place or size was announced and has not come");
+  }
+  maps_.retry();
   if (owes_map_ && latest().grid) tell({latest(), std::nullopt});
 }
 
@@ -252,93 +230,59 @@ void MapReceiver::tell(MapChange change) {
   owes_map_ = false;
 }
 
-void MapReceiver::askForAWholeMap() {
-  const auto now = Clock::now();
-  if (now - asked_at_ < until_asked_again_ || master_->silence() > kMasterSilence) return;
-  asked_at_ = now;
-  until_asked_again_ = std::clamp<Clock::duration>(2 * until_asked_again_, kAnswer, kLongestAnswer);
-  map_subscriber_.shutdown();  // a second subscription of a node would share the link of the first
-  subscribeToMaps();
-}
-
 void MapReceiver::onUpdate(const UpdateEvent& event) {
   const map_msgs::OccupancyGridUpdate& message = *event.getConstMessage();
   const std::string publisher = event.getPublisherName();
-  const auto [missed, began_again] = sequence_.note(publisher, message.header.seq);
-  if (missed > 0 && latest().grid)
-    noteLoss(std::to_string(missed) + " updates of the map were lost",
-             std::max(latest().stamp, message.header.stamp));
-  else if (!lost().empty())
-    askForAWholeMap();
-  if (publisher == latest().publisher) {
-    if (began_again && !whole_came_last_) awaitMapOfRestarted(publisher);
-    whole_came_last_ = false;
+  const std::uint32_t missed = order_.note(publisher, message.header.seq);
+  if (missed > 0 && latest().grid) {
+    order_.noteLoss(message.header.stamp);
+    noteLoss(std::to_string(missed) + " updates of the map were lost");
+  } else if (!lost().empty()) {
+    maps_.ask();
   }
-  if (isAnnouncement(message)) return noteAnnouncement(event);
-  if (!hasNoCells(message)) return noteUpdate(event);
+  if (isAnnouncement(message)) return order_.noteAnnouncement(publisher, message.header.stamp);
+  if (hasNoCells(message)) return onHeartbeat(event);
+  noteUpdate(event);
+}
+
+void MapReceiver::onHeartbeat(const UpdateEvent& event) {
+  const ros::Time& stamp = event.getConstMessage()->header.stamp;
+  const std::string publisher = event.getPublisherName();
   {
     std::lock_guard<std::mutex> lock(mutex_);
-    heartbeat_ = {message.header.stamp, Clock::now(), publisher};
-    if (publisher == map_.publisher) map_.data.noteHeartbeat(message.header.stamp, Instant::now());
+    heartbeat_ = {stamp, Clock::now(), publisher};
+    if (publisher == map_.publisher) map_.data.noteHeartbeat(stamp, Instant::now());
   }
   on_heartbeat_();
 }
 
-// Unless the map came before it; but where ROS time went back, that was another one. What another node than the map's
-// announces says nothing of the map.
-void MapReceiver::noteAnnouncement(const UpdateEvent& event) {
-  const ros::Time stamp = event.getConstMessage()->header.stamp, now = ros::Time::now();
-  const std::string publisher = event.getPublisherName();
-  if (latest().grid && latest().publisher != publisher) return;
-  const bool came = publisher == whole_of_ && stamp <= whole_stamp_ && whole_heard_ <= now;
-  if (!came && !stamp.isZero()) announced_ = {publisher, stamp, now, Clock::now()};
-}
-
-// It may lie elsewhere than the one of before, and comes over a connection of its own: as if announced, but later than that
-// one, since its stamp is not known.
-void MapReceiver::awaitMapOfRestarted(const std::string& publisher) {
-  ros::Time later = whole_stamp_;
-  ++later.nsec;
-  announced_ = {publisher, later, ros::Time::now(), Clock::now()};
-}
-
-// But not where ROS time went back meanwhile.
-bool MapReceiver::isAwaited(const std::string& publisher) const {
-  return announced_ && announced_->publisher == publisher && announced_->heard <= ros::Time::now();
-}
-
 void MapReceiver::noteUpdate(const UpdateEvent& event) {
-  const map_msgs::OccupancyGridUpdate& message = *event.getConstMessage();
-  const ReceivedMap before = latest();
-  if (!before.grid || isAwaited(event.getPublisherName())) {
-    recent_.keep(event.getPublisherName(), event.getConstMessage(), ros::Time::now());
-    static LogThrottle seldom(5.0);
+  const auto& message = event.getConstMessage();
+  const std::string publisher = event.getPublisherName();
+  static LogThrottle seldom(5.0);
+  if (!latest().grid || order_.isAwaited(publisher)) {
+    order_.keep(publisher, message);
     ROS_WARN_COND(seldom.isDue(), "An update of the map waits: the map has not come yet");
     return;
   }
-  // A map from the future is from before the time jumped back, as when a bag loops.
-  const bool newer_map = !message.header.stamp.isZero() && message.header.stamp < before.stamp &&
-                         before.stamp <= ros::Time::now();
-  if (newer_map) {
-    static LogThrottle seldom(5.0);
+  if (order_.isOld(*message)) {
     ROS_WARN_STREAM_COND(seldom.isDue(), "An update of the map stamped "
-                                             << message.header.stamp
-                                             << " was dropped: the map is newer, " << before.stamp);
+                                             << message->header.stamp
+                                             << " was dropped: the map is newer, "
+                                             << latest().stamp);
     return;
   }
   MapChange change;
   try {
-    change = apply(event);
-    recent_.keep(event.getPublisherName(), event.getConstMessage(), ros::Time::now());
+    change = taking([&] { return apply(event); });
   } catch (const InputError& error) {
     refuse(updates_.getTopic(), error.what());
-    // Of a map that has grown, and comes after it.
-    recent_.keep(event.getPublisherName(), event.getConstMessage(), ros::Time::now());
+    order_.keep(publisher,
+                message);  // of a map that has grown, and comes after it
     return;
-  } catch (...) {
-    lost_one_ = owes_map_ = true;  // the grid may have it, and nobody was told
-    throw;
   }
+  order_.tookUpdate(*message);
+  order_.keep(publisher, message);
   tell(std::move(change));
 }
 

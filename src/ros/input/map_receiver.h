@@ -5,24 +5,21 @@
 // taken as a piece is.
 //
 // An invalid message is refused with an error that says why, and the map before it stays; so is a
-// piece outside the map. A piece older than the map is dropped: it is part of the map already
-// (unless the map is stamped later than now: then ROS time has jumped back). One that is stamped 0,
-// as costmap_2d's are, counts in the order in which it comes. Maps handed out never change; a piece
-// makes a new one in time proportional to the piece (grid/double_buffered.h).
+// piece outside the map. A piece older than the map is dropped: it is part of the map already. One that is stamped 0, as
+// costmap_2d's are, counts in the order in which it comes (map_order.h). Maps handed out never change; a piece makes a new one
+// in time proportional to the piece (grid/double_buffered.h).
 //
 // A piece without cells (0x0) is a heartbeat: it changes nothing and is accepted before there is a
 // map; only its stamp, who sent it and when it came are kept.
 //
-// Updates that follow the announcement of a map of another place or size (outgoing/map_announcement.h) wait for that map, or
+// Updates that follow the announcement of a map of another place or size (messages/map_announcement.h) wait for that map, or
 // for the next one after it was asked for. Announcements count of the map's own publisher only.
 //
-// Of updates that come faster than they are applied at most 64 MB wait; the oldest are lost first. A whole map that updates
-// overtook, which have connections of their own, is taken with these (incoming/recent_updates.h).
+// Of updates that come faster than they are applied at most 64 MB wait; the oldest are lost first.
 //
-// An update that is lost is noticed by the numbers of those that come (update_sequence.h), also of
-// heartbeats. Then the topic of maps is subscribed anew, which makes projected_map send a whole map, and again after 2, 4, 8 s,
-// a minute at last; another publisher is waited for. Until a whole map is there, lost() says so and the updates that
-// come are applied. A map that was announced and has not come for 2 s is lost, too.
+// An update that is lost is noticed by the numbers of those that come (update_sequence.h), also of heartbeats. Then a whole map
+// is asked for (whole_map_subscription.h). Until it is there, lost() says so and the updates that come are applied. A map that
+// was announced and has not come for 2 s is lost, too.
 #pragma once
 
 #include <map_msgs/OccupancyGridUpdate.h>
@@ -43,10 +40,10 @@
 #include "grid_path_planner/grid/double_buffered.h"
 #include "grid_path_planner/grid/occupancy.h"
 #include "ros/guard/incoming/bounded_subscription.h"
-#include "ros/guard/master/master_watch.h"
+#include "ros/guard/node_time.h"
 #include "ros/input/map_data.h"
-#include "ros/input/recent_updates.h"
-#include "ros/input/update_sequence.h"
+#include "ros/input/map_order.h"
+#include "ros/input/whole_map_subscription.h"
 
 namespace grid_path_planner::nodes {
 
@@ -115,66 +112,51 @@ class MapReceiver {
   void shutdown();
 
  private:
-  using MapEvent = ros::MessageEvent<nav_msgs::OccupancyGrid const>;
   using UpdateEvent = ros::MessageEvent<map_msgs::OccupancyGridUpdate const>;
   using Clock = std::chrono::steady_clock;
 
   void onMap(const MapEvent& event);
   void onUpdate(const UpdateEvent& event);
-  MapChange use(const MapEvent& event);
+  void onHeartbeat(const UpdateEvent& event);
+  MapChange use(const MapEvent& event, const MapOrder::Whole& whole);
   // Makes the grid of `message` the present one. What changed; nullopt where it lies elsewhere.
   std::optional<std::vector<grid::CellRect>> takeGrid(const nav_msgs::OccupancyGrid& message,
                                                       const std::string& frame_id);
-  bool isOlder(const MapEvent& event) const;
-  // Whether it was announced that `publisher` sends a map of another place or size, which has not come.
-  bool isAwaited(const std::string& publisher) const;
-  void noteAnnouncement(const UpdateEvent& event);
-  void awaitMapOfRestarted(const std::string& publisher);
   void noteUpdate(const UpdateEvent& event);
-  // Of what had come by `at`.
-  void noteLoss(const std::string& what, const ros::Time& at);
-  void subscribeToMaps();
-  void askForAWholeMap();
+  MapChange apply(const UpdateEvent& event);
+  void noteLoss(const std::string& what);
+  void noteComplete();
+  // Returns what `take` does. Where it fails for want of memory, the grid may
+  // have the change and nobody was told.
+  template <class Take>
+  MapChange taking(Take take);
   void tell(MapChange change);
   // What failed for want of memory: a map or an update that came, the subscription, the listener. By a timer.
   void retry();
-  MapChange apply(const UpdateEvent& event);
   // The map whose grid is the present one of grids_.
   MapChange store(ReceivedMap map, std::optional<std::vector<grid::CellRect>> changed);
   void refuse(const std::string& topic, const std::string& reason);
 
   OnChange on_change_;
   std::function<void()> on_heartbeat_;
-  mutable std::mutex mutex_;
-  std::string name_;                                 // of the topic, relative
-  std::string topic_;                                // resolved
-  grid::DoubleBuffered<grid::OccupancyGrid> grids_;  // the subscribers'
+  // The subscribers' thread's:
+  grid::DoubleBuffered<grid::OccupancyGrid> grids_;
+  MapOrder order_;
+  bool lost_one_ = false;  // a map or an update that came
+  bool owes_map_ = false;  // to the listener
+
+  mutable std::mutex mutex_;  // of what follows up to the subscriptions
+  std::string topic_;         // resolved
   ReceivedMap map_;
   std::string refusal_;
   std::optional<MapHeartbeat> heartbeat_;
   std::string lost_;
   Clock::time_point lost_since_;
-  UpdateSequence sequence_;              // of the subscribers, as the next
-  Clock::time_point asked_at_;           // for a whole map
-  Clock::duration until_asked_again_{};  // from then
-  struct Announced {
-    std::string publisher;
-    ros::Time stamp, heard;
-    Clock::time_point came;
-  };
-  std::optional<Announced> announced_;  // a map that has not come
-  std::string whole_of_;                // publisher of the last whole map
-  ros::Time whole_stamp_, whole_heard_;
-  bool whole_came_last_ = false;  // after the last update of its publisher
-  std::shared_ptr<MasterWatch> master_;
-  RecentUpdates recent_;
-  ros::Time lost_at_;  // a whole map from before that lacks what was lost, too
-  ros::NodeHandle nh_;
-  ros::Subscriber map_subscriber_;
-  bool lost_one_ = false;  // a map or an update that came
-  bool owes_map_ = false;  // to the listener
-  ros::SteadyTimer retry_timer_;
+
+  WholeMapSubscription maps_;
   ros::Subscriber updates_;
+  ros::SteadyTimer retry_timer_;
+  std::shared_ptr<void> on_jump_back_;
 };
 
 }  // namespace grid_path_planner::nodes

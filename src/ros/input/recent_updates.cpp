@@ -41,10 +41,10 @@ void RecentUpdates::keep(const std::string& publisher, const Update& update,
     const ros::Time& stamp = update->header.stamp;
     if (stamp.isZero() || secondsBetween(now, stamp) > kMostAhead || !isValid(*update)) return;
     forgetLaterThan(publisher, stamp);
-    kept_.push_back({publisher, update, now});
+    kept_.push_back({publisher, update});
     bytes_ += update->data.size();
   } catch (...) {  // no memory
-    noteForgotten(update, now);
+    noteForgotten(update);
     return;
   }
   while (bytes_ > kMostBytes || kept_.size() > kMostUpdates) forgetTheOldest();
@@ -57,7 +57,7 @@ void RecentUpdates::forgetLaterThan(const std::string& publisher, const ros::Tim
                      [&](const Kept& kept) {
                        if (kept.publisher != publisher || kept.update->header.stamp <= stamp)
                          return false;
-                       noteForgotten(kept.update, kept.came);
+                       noteForgotten(kept.update);
                        bytes_ -= kept.update->data.size();
                        return true;
                      }),
@@ -66,42 +66,36 @@ void RecentUpdates::forgetLaterThan(const std::string& publisher, const ros::Tim
 
 void RecentUpdates::forgetTheOldest() {
   const Kept& oldest = kept_.front();
-  noteForgotten(oldest.update, oldest.came);
+  noteForgotten(oldest.update);
   bytes_ -= oldest.update->data.size();
   kept_.pop_front();
 }
 
-void RecentUpdates::noteForgotten(const Update& update, const ros::Time& came) {
+void RecentUpdates::noteForgotten(const Update& update) {
   forgotten_ = std::max(forgotten_, update->header.stamp);
-  forgotten_came_ = std::max(forgotten_came_, came);
 }
 
-bool RecentUpdates::isSince(const Kept& kept, const std::string& publisher, const ros::Time& stamp,
-                            const ros::Time& now) {
-  return !stamp.isZero() && kept.publisher == publisher && kept.update->header.stamp > stamp &&
-         kept.came <= now;
+bool RecentUpdates::isSince(const Kept& kept, const std::string& publisher,
+                            const ros::Time& stamp) {
+  return !stamp.isZero() && kept.publisher == publisher && kept.update->header.stamp > stamp;
 }
 
 std::vector<RecentUpdates::Update> RecentUpdates::since(const std::string& publisher,
                                                         const ros::Time& stamp,
-                                                        const ros::Time& now,
                                                         const ros::Time& until) const {
   std::vector<Update> newer;
   for (const Kept& kept : kept_)
-    if (isSince(kept, publisher, stamp, now) && kept.update->header.stamp <= until)
+    if (isSince(kept, publisher, stamp) && kept.update->header.stamp <= until)
       newer.push_back(kept.update);
   return newer;
 }
 
 void RecentUpdates::forgetBefore(const std::string& publisher, const ros::Time& stamp,
                                  const ros::Time& now) {
-  if (forgotten_came_ > now) forgotten_ = ros::Time();  // ROS time went back
   forgotten_ = std::max(forgotten_, std::min(stamp, now));
-  forgotten_came_ = now;
-  kept_.erase(
-      std::remove_if(kept_.begin(), kept_.end(),
-                     [&](const Kept& kept) { return !isSince(kept, publisher, stamp, now); }),
-      kept_.end());
+  kept_.erase(std::remove_if(kept_.begin(), kept_.end(),
+                             [&](const Kept& kept) { return !isSince(kept, publisher, stamp); }),
+              kept_.end());
   bytes_ = 0;
   for (const Kept& kept : kept_) bytes_ += kept.update->data.size();
 }

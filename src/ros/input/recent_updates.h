@@ -22,10 +22,11 @@ class RecentUpdates {
   // `publisher`: the node. The oldest are forgotten beyond 16 MB and 1,000 updates; one with values, or the name of a frame, that no
   // map has, stamped 0, or more than kMostAhead after `now`, which would be newer than every map to come, is not kept.
   void keep(const std::string& publisher, const Update& update, const ros::Time& now) noexcept;
-  // Those of `publisher` that are stamped later than `stamp` and no later than `until`, in the order in which they came; none
-  // that came after `now`, which was before ROS time went back, or where `stamp` is 0, of no time.
+  // Those of `publisher` that are stamped later than `stamp` and no later than
+  // `until`, in the order in which they came; none where `stamp` is 0, of no
+  // time.
   std::vector<Update> since(const std::string& publisher, const ros::Time& stamp,
-                            const ros::Time& now, const ros::Time& until = ros::TIME_MAX) const;
+                            const ros::Time& until = ros::TIME_MAX) const;
   // A map of `publisher` that is stamped so was taken: all but since() are forgotten.
   void forgetBefore(const std::string& publisher, const ros::Time& stamp, const ros::Time& now);
   // Whether since() would have all of these that have come.
@@ -35,18 +36,16 @@ class RecentUpdates {
   struct Kept {
     std::string publisher;
     Update update;
-    ros::Time came;
   };
 
-  static bool isSince(const Kept& kept, const std::string& publisher, const ros::Time& stamp,
-                      const ros::Time& now);
+  static bool isSince(const Kept& kept, const std::string& publisher, const ros::Time& stamp);
   void forgetLaterThan(const std::string& publisher, const ros::Time& stamp);
   void forgetTheOldest();
-  void noteForgotten(const Update& update, const ros::Time& came);
+  void noteForgotten(const Update& update);
 
   std::deque<Kept> kept_;
   std::size_t bytes_ = 0;
-  ros::Time forgotten_, forgotten_came_;  // stamp of the newest that was, and when it came
+  ros::Time forgotten_;  // stamp of the newest that was
 };
 
 // `map` with the cells of `updates`, but of those that do not lie in it, or are of another frame.

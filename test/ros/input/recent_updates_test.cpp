@@ -39,14 +39,13 @@ TEST(RecentUpdates, AreThoseOfThePublisherThatAreNewerThanTheMap) {
   recent.keep("/a", updateAt(2.0, 2, 100), kNow);
   recent.keep("/b", updateAt(3.0, 3, 100), kNow);
   recent.keep("/a", updateAt(3.0, 4, 100), kNow);
-  recent.keep("/a", updateAt(100.1, 5, 100), kNow);              // /clock is late
-  recent.keep("/a", updateAt(500.0, 6, 100), ros::Time(500.0));  // of a time that has gone back
-  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(1.0), kNow, ros::Time(3.0))),
+  recent.keep("/a", updateAt(100.1, 5, 100), kNow);  // /clock is late
+  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(1.0), ros::Time(3.0))),
             std::vector<int>({2, 4}));
   recent.forgetBefore("/a", ros::Time(1.0), kNow);
-  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(1.0), kNow)), std::vector<int>({2, 4, 5}))
+  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(1.0))), std::vector<int>({2, 4, 5}))
       << "for the next map";
-  EXPECT_TRUE(recent.since("/b", ros::Time(0.0), kNow).empty()) << "of another publisher's map";
+  EXPECT_TRUE(recent.since("/b", ros::Time(0.0)).empty()) << "of another publisher's map";
 }
 
 // What was seen before, by reading: an update whose stamp was hours ahead was laid upon every later map of its publisher, also
@@ -55,7 +54,7 @@ TEST(RecentUpdates, OneFromFarAheadIsNotKept) {
   RecentUpdates recent;
   for (const double stamp : {110.1, 7200.0, 4294967295.0})
     recent.keep("/a", updateAt(stamp, 1, 0), kNow);
-  EXPECT_TRUE(recent.since("/a", ros::Time(50.0), kNow).empty());
+  EXPECT_TRUE(recent.since("/a", ros::Time(50.0)).empty());
   for (int i = 0; i < 1001; ++i) recent.keep("/a", updateAt(60.0, i, 0), kNow);
   EXPECT_TRUE(recent.complete(ros::Time(60.0)));
 }
@@ -67,8 +66,8 @@ TEST(RecentUpdates, AreForgottenWhereTheClockOfTheirPublisherWentBack) {
   recent.keep("/a", updateAt(104.0, 1, 0), kNow);
   recent.keep("/a", updateAt(105.0, 2, 0), kNow);
   recent.keep("/a", updateAt(101.0, 3, 100), kNow);
-  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(100.5), kNow)), std::vector<int>({3}));
-  EXPECT_EQ(columnsOf(recent.since("/b", ros::Time(100.5), kNow)), std::vector<int>({9}));
+  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(100.5))), std::vector<int>({3}));
+  EXPECT_EQ(columnsOf(recent.since("/b", ros::Time(100.5))), std::vector<int>({9}));
   EXPECT_FALSE(recent.complete(ros::Time(100.5)));
 }
 
@@ -81,14 +80,14 @@ TEST(RecentUpdates, AreCompleteUntilTheOldestAreForgotten) {
   EXPECT_TRUE(recent.complete(ros::Time(1.0))) << "of its own time is in it";
   recent.keep("/a", updateAt(21.0, 0, 0, 15'999'500), kNow);
   EXPECT_FALSE(recent.complete(ros::Time(5.0))) << "16 MB";
-  EXPECT_EQ(recent.since("/a", ros::Time(19.0), kNow).size(), 2U);
+  EXPECT_EQ(recent.since("/a", ros::Time(19.0)).size(), 2U);
 }
 
 // A map without a stamp would be overwritten with all that had come before it.
 TEST(RecentUpdates, AreNoneForAMapOfNoTime) {
   RecentUpdates recent;
   recent.keep("/a", updateAt(1.0, 1, 100), kNow);
-  EXPECT_TRUE(recent.since("/a", ros::Time(), kNow).empty());
+  EXPECT_TRUE(recent.since("/a", ros::Time()).empty());
 }
 
 TEST(RecentUpdates, AreNotCompleteForAMapThatIsOlderThanOneThatWasTaken) {
@@ -97,8 +96,6 @@ TEST(RecentUpdates, AreNotCompleteForAMapThatIsOlderThanOneThatWasTaken) {
   recent.forgetBefore("/a", ros::Time(3.0), kNow);
   EXPECT_FALSE(recent.complete(ros::Time(1.0)));
   EXPECT_TRUE(recent.complete(ros::Time(3.0)));
-  recent.forgetBefore("/a", ros::Time(1.0), ros::Time(50.0));
-  EXPECT_TRUE(recent.complete(ros::Time(1.0))) << "ROS time went back";
 }
 
 // It would be older than all that is kept of its publisher, as where that clock was set back.
@@ -106,7 +103,7 @@ TEST(RecentUpdates, OneOfNoTimeIsNotKeptAndForgetsNoOther) {
   RecentUpdates recent;
   recent.keep("/a", updateAt(1.0, 1, 100), kNow);
   recent.keep("/a", updateAt(0.0, 2, 100), kNow);
-  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(0.5), kNow)), std::vector<int>({1}));
+  EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(0.5))), std::vector<int>({1}));
   EXPECT_TRUE(recent.complete(ros::Time(0.5)));
 }
 
@@ -128,7 +125,7 @@ TEST(RecentUpdates, WithoutValuesAndFramesThatNoMapHas) {
     of_no_frame->header.frame_id = frame;
     recent.keep("/a", of_no_frame, kNow);
   }
-  EXPECT_TRUE(recent.since("/a", ros::Time(0.5), kNow).empty());
+  EXPECT_TRUE(recent.since("/a", ros::Time(0.5)).empty());
 }
 
 TEST(WithUpdates, HasTheNewestOfThoseThatLieInIt) {

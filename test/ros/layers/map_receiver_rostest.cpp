@@ -39,7 +39,7 @@ class MapReceiverTest : public testing::Test {
  protected:
   MapReceiverTest() {
     ros::NodeHandle nh;
-    nh.setCallbackQueue(&queue_);
+    nh.setCallbackQueue(&guarded_);
     auto numbered = ros::AdvertiseOptions::create<map_msgs::OccupancyGridUpdate>(
         "projected_map_updates", 10, {}, {}, {}, nullptr);
     numbered.has_header = false;  // header.seq is the test's
@@ -92,6 +92,7 @@ class MapReceiverTest : public testing::Test {
   std::uint32_t number_ = 0;
   int beats_ = 0;
   ros::CallbackQueue queue_;
+  GuardedQueue guarded_{queue_};
   MapReceiver receiver_;
 };
 
