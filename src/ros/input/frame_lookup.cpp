@@ -263,10 +263,9 @@ Placed FrameLookup::placedNow(const std::string& frame, const ros::Time& stamp,
   if (off <= by.max_age && -off <= most_ahead) return placed;
   const std::string what = frame == by.vehicle ? "the pose of " + frame + " in "
                                                : "the transform from " + frame + " to ";
-  throw TransformError(
-      what + by.into + " is " +
-      (off > 0.0 ? ageText(off) + " old" : "stamped " + ageText(-off) + " ahead") +
-      (at.isZero() ? "" : " at the stamp"));
+  throw TransformError(what + by.into + " is " +
+                       (off > 0.0 ? ageText(off) + " old" : "stamped " + ageText(-off) + " ahead") +
+                       (at.isZero() ? "" : " at the stamp"));
 }
 
 // The transform at `stamp`; the newest where that is 0, ahead of all that tf has, or as near to it as `by` asks for.
