@@ -111,6 +111,33 @@ TEST(SpeedLimits, AreKeptInTheZoneAndNoLongerBehindIt) {
   EXPECT_GT(fastest_behind, 0.75);
 }
 
+// What is steered to may be steeper than the path: the vehicle was 0.995 m/s fast at a limit of 0.8 where the share upwards
+// was taken of the speed as it was wanted, and not as the plane's limit left it.
+TEST(SpeedLimitsLaw, HoldInThePlaneAndUpwardsWhereverTheVehicleWasCarried) {
+  std::mt19937 random(41);
+  std::uniform_real_distribution<double> place(-3.0, 3.0), limit(0.05, 1.0);
+  int at_plane_limit = 0, at_vertical_limit = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    FollowerOptions options;
+    options.max_vertical_speed = limit(random);
+    ClosedLoop loop(options);
+    const double fastest = std::min(limit(random), options.max_speed);
+    loop.speed_limit = [&](const std::vector<Vector3d>&) { return fastest; };
+    loop.follower.start(pathOf({{-9, 0}, {9, 0}}), Join::NEAREST);
+    loop.putAt({place(random), place(random), place(random)});
+    loop.each_step = [&] {
+      const double plane = planeSpeed(loop.command), vertical = std::abs(loop.command.heave);
+      ASSERT_LE(plane, fastest + 1e-9) << "trial " << trial;
+      ASSERT_LE(vertical, options.max_vertical_speed + 1e-9) << "trial " << trial;
+      at_plane_limit += plane > fastest - 1e-6 ? 1 : 0;
+      at_vertical_limit += vertical > options.max_vertical_speed - 1e-6 ? 1 : 0;
+    };
+    loop.run(5.0);
+  }
+  EXPECT_GT(at_plane_limit, 100);
+  EXPECT_GT(at_vertical_limit, 100);
+}
+
 TEST(SpeedLimits, HoldForTheReturnToAPoseToo) {
   ClosedLoop loop;
   loop.follower.start(pathOf({{1, 0}}), Join::FIRST);

@@ -84,6 +84,20 @@ TEST(States, APathInAnotherFrameTurnsNoVelocity) {
   EXPECT_NEAR(after.sway, before.sway, 1.01 * options.max_acceleration * 0.05);
 }
 
+// Whoever holds the vehicle has it stand, with its pose known or not.
+TEST(States, WhatIsHeldReturnsToNoPose) {
+  const auto loop = in(FollowState::ARRIVED);
+  loop->putAt({2.0, 0.0, 0.0});
+  FollowInput input;
+  input.time = loop->vehicle.time();
+  for (const char* const hold : {"stopped", "", "stopped"}) {
+    input.pose = loop->pose();
+    input.hold = hold;
+    input.time += 0.05;
+    EXPECT_EQ(loop->follower.update(input).isZero(), input.hold == "stopped");
+  }
+}
+
 TEST(States, PauseFromEveryState) {
   for (const FollowState state : kStates) {
     const auto loop = in(state);

@@ -51,6 +51,22 @@ TEST(CostOf, IsThatOfTheStepsAndNoneThroughObstacles) {
   EXPECT_FALSE(costOf({{0.5, 0.5}, {9.5, 0.5}}, *costs)) << "outside the map";
 }
 
+// A vehicle that stands 1.3 m from one obstacle may be as near to another for a cell's diagonal, along the segment to its
+// path and along the one after it; what comes then keeps the whole radius.
+TEST(CostOf, OnlyTheFirstTwoSegmentsMayBeAsNearAsTheStart) {
+  costmap::CostmapOptions options;
+  options.radius = 1.37;
+  options.outside = costmap::Outside::FREE;
+  grid::OccupancyGrid map(grid::GridGeometry(20, 20, 1.0), 0);
+  map.row(17)[2] = 100;  // at the start
+  map.row(9)[4] = 100;   // 1.33 m from the last segment, beside its beginning
+  const auto costs = test::costsOf(map, options);
+  const Eigen::Vector2d start(2.5, 15.7), joins(2.3, 13.5), turns(2.71, 10.5), end(2.11, 4.5);
+  EXPECT_TRUE(costOf({start, joins, turns}, *costs));
+  EXPECT_TRUE(costOf({start, turns, end}, *costs));
+  EXPECT_FALSE(costOf({start, joins, turns, end}, *costs));
+}
+
 TEST(PathBlocked, OnlyWhatRemainsCounts) {
   const auto costs = costsOf({".....", ".#...", "....."});
   const Path path = through({{0.5, 1.5}, {4.5, 1.5}});
