@@ -128,10 +128,24 @@ std::set<std::pair<int, int>> cellsBySampling(Eigen::Vector2d from, Eigen::Vecto
   return cells;
 }
 
-TEST(SegmentLaw, IsLegalOnlyWhereEverySampleIsPassableAndTheSameBackwards) {
+// Whether every cell is passable that the segment meets or comes near.
+bool isFarFromBlocked(const CostGrid& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  constexpr int kSamples = 500;
+  constexpr double kNear = 0.02;  // cells; more than half of what lies between two samples
+  for (int i = 0; i <= kSamples; ++i) {
+    const Eigen::Vector2d point = from + (to - from) * (double(i) / kSamples);
+    for (const double x : {point.x() - kNear, point.x() + kNear})
+      for (const double y : {point.y() - kNear, point.y() + kNear})
+        if (!map.passable({int(std::floor(x)), int(std::floor(y))})) return false;
+  }
+  return true;
+}
+
+// What touches a blocked cell may be either, but the same in both directions.
+TEST(SegmentLaw, IsLegalOnlyWhereEverySampleIsPassableAndWhereAllAroundIs) {
   std::mt19937 random(5863);
   std::uniform_real_distribution<double> place(0.0, 8.0);
-  int legal_ones = 0;
+  int legal_ones = 0, far_ones = 0;
   for (int trial = 0; trial < 1500; ++trial) {
     Grid<CostGrid::Weight> weights(GridGeometry(8, 8, 1.0), 1);
     for (auto& weight : weights.values()) weight = random() % 8 == 0 ? 0 : 1;
@@ -152,8 +166,13 @@ TEST(SegmentLaw, IsLegalOnlyWhereEverySampleIsPassableAndTheSameBackwards) {
       ASSERT_TRUE(passable) << from.transpose() << " to " << to.transpose();
       ++legal_ones;
     }
+    if (isFarFromBlocked(map, from, to)) {
+      ASSERT_TRUE(judged) << from.transpose() << " to " << to.transpose();
+      ++far_ones;
+    }
   }
   EXPECT_GT(legal_ones, 200);
+  EXPECT_GT(far_ones, 100);
 }
 
 }  // namespace

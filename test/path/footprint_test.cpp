@@ -81,7 +81,9 @@ TEST(Footprint, whatIsNoOutlineIsRefused) {
 TEST(Footprint, aHugeTextIsRefusedWithAShortOne) {
   std::string text = "[";
   for (int i = 0; i < 5000; ++i) text += "[1, 1],";
-  EXPECT_LT(refusalOf(text).size(), 300u);
+  const std::string refusal = refusalOf(text);
+  EXPECT_NE(refusal.find("which is wrong from character"), std::string::npos) << refusal;
+  EXPECT_LT(refusal.size(), 300u);
 }
 
 // Random polygons about the origin, star-shaped or not, against Boost.Geometry.

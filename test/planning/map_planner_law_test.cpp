@@ -178,8 +178,9 @@ TEST(MapPlannerLaw, AnUpdatedMapIsPlannedLikeAFreshOne) {
 }
 
 // navigation2#4694, #2698: crash outside the map.
-TEST(MapPlannerLaw, NoRequestCrashes) {
+TEST(MapPlannerLaw, NoRequestCrashesAndWhatIsFoundLeadsFromEndToEnd) {
   std::mt19937 random(4694);
+  int found = 0;
   for (int trial = 0; trial < 1000; ++trial) {
     const OccupancyGrid map = test::randomOccupancy(random, 12, 0.2, 0.2);
     PlannerOptions options = randomOptions(random);
@@ -195,7 +196,18 @@ TEST(MapPlannerLaw, NoRequestCrashes) {
     const Plan report = planner.plan(request);
     EXPECT_FALSE(report.message.empty());
     EXPECT_EQ(report.path.empty(), report.status != Status::FOUND);
+    if (trial % 50 < 2) {
+      EXPECT_NE(report.status, Status::FOUND) << "of a pose beyond everything";
+    }
+    if (report.status != Status::FOUND) continue;
+    ++found;
+    const auto apart = [](const Pose& a, const Pose& b) {
+      return (a.position - b.position).head<2>().norm();
+    };
+    EXPECT_EQ(apart(report.path.poses.front(), request.start), 0.0) << trial;
+    EXPECT_LE(apart(report.path.poses.back(), request.goal), options.tolerance + 1e-9) << trial;
   }
+  EXPECT_GT(found, 40);
 }
 
 }  // namespace
