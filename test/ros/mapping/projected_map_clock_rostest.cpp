@@ -1,6 +1,9 @@
 // projected_map under simulated time that leaps ahead, as the computer's own does where NTP sets it.
 #include <rosgraph_msgs/Clock.h>
 
+#include <cmath>
+
+#include "ros/guard/clock.h"
 #include "ros/support/mapping_fixture.h"
 
 namespace grid_path_planner::nodes {
@@ -24,9 +27,13 @@ class ProjectedMapClock : public test::MappingTest {
       setTime(time);
       clouds_.publish(cloudOf(points, "map", ros::Time(time)));
       for (const nav_msgs::OccupancyGrid& map : maps_.all())
-        if (map.header.stamp == ros::Time(time) && valueAt(map, x, y) == 100) return true;
+        if (isOf(map, time) && valueAt(map, x, y) == 100) return true;
       return false;
     });
+  }
+  // Later by nanoseconds where it holds nothing newer than the one before.
+  static bool isOf(const nav_msgs::OccupancyGrid& map, double time) {
+    return std::abs(secondsBetween(ros::Time(time), map.header.stamp)) < 1e-3;
   }
   int newestAt(double x, double y) const { return valueAt(maps_.all().back(), x, y); }
 
