@@ -1,6 +1,7 @@
 #include "layers/layered_map.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "grid/level_grid.h"
@@ -25,24 +26,15 @@ OccupancyGrid levelLimitsOfMask(const OccupancyGrid& mask, const SpeedMaskScale&
 }  // namespace
 
 void LayeredMap::configure(const MapLayersOptions& options, const Zones& zones) {
+  static_assert(std::is_nothrow_move_assignable_v<LayeredMap>);
   checkSlowZones(zones, options.max_speed);
-  auto mask_limits = mask_limits_;
-  if (speed_mask_) mask_limits = levelLimitsOfMask(*speed_mask_, options.speed_mask);
+  LayeredMap next = *this;
+  if (speed_mask_) next.mask_limits_ = levelLimitsOfMask(*speed_mask_, options.speed_mask);
   const bool other_rule = options.occupied_min != options_.occupied_min;
-  MapLayersOptions other_options = options;
-  Zones other_zones = zones;
-  const auto exchange = [&] {
-    std::swap(options_, other_options);
-    std::swap(zones_, other_zones);
-    std::swap(mask_limits_, mask_limits);
-  };
-  exchange();
-  try {
-    layAll(other_rule);
-  } catch (...) {
-    exchange();
-    throw;
-  }
+  next.options_ = options;
+  next.zones_ = zones;
+  next.layAll(other_rule);
+  *this = std::move(next);
 }
 
 void LayeredMap::layAll(bool other_rule) {

@@ -33,7 +33,7 @@ class LayeredMap {
   using Changed = std::optional<std::vector<grid::CellRect>>;  // nullopt: all may differ
 
   // Throws InputError for what checkSlowZones() refuses, and, later, for values of the speed mask that
-  // limitsOfMask() does.
+  // limitsOfMask() does. Whatever it throws, nothing changes: a copy of the whole is laid, and takes its place.
   void configure(const MapLayersOptions& options, const Zones& zones);
 
   // Those whose origin has a yaw are laid on a grid without one: throw InputError as LevelGrid.

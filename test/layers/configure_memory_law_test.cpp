@@ -1,7 +1,7 @@
-// Whatever allocation fails while other options and zones are taken: the map, laid again, is that of those before, which are
-// the ones that are told and kept.
+// Whatever allocation fails while other options and zones are taken: nothing has changed, and nothing is told to have.
 //
-// By the code: a change that was refused for want of memory was in force all the same.
+// By the code: a change that was refused for want of memory was in force all the same; then, after that was mended, the map
+// was laid in part until it was laid again.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -34,6 +34,8 @@ struct Laid {
   void lay() {
     map.setBase(base);
     map.setLive(base);
+    map.takeChanged();
+    map.takeNewSpeedLimits();
   }
 };
 
@@ -54,10 +56,13 @@ TEST(ConfigureMemoryLaw, ARefusedChangeIsNotInForce) {
     } catch (const std::bad_alloc&) {
       happened = true;
     }
-    laid.lay();
     const LayeredMap& expected = taken ? after.map : before.map;
     EXPECT_EQ(laid.map.merged(), expected.merged()) << number;
     EXPECT_EQ(laid.map.speedLimits(), expected.speedLimits()) << number;
+    EXPECT_EQ(laid.map.takeChanged().empty(), !taken) << number;
+    EXPECT_EQ(laid.map.takeNewSpeedLimits(), taken) << number;
+    laid.lay();
+    EXPECT_EQ(laid.map.merged(), expected.merged()) << number << ", laid again";
     if (!happened) return;
   }
 }
