@@ -5,18 +5,18 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "security"))
 import actionlib
 import rospy
 import rostest
-import tf2_ros
 from actionlib_msgs.msg import GoalID
 from dynamic_reconfigure.msg import Config, StrParameter
 from dynamic_reconfigure.srv import Reconfigure
-from geometry_msgs.msg import TransformStamped
 from move_base_msgs.msg import MoveBaseAction, MoveBaseActionResult, MoveBaseGoal
 from std_msgs.msg import Empty
 
 from go_to_session import DEADLINE, PACKAGE, GoToTest, executable, pose, room
+from message_classes import message_class
 
 ATTEMPTS = 5
 
@@ -128,12 +128,13 @@ class GoToPose(GoToTest):
 
     def test_a_goal_in_a_frame_that_has_ceased_is_aborted_with_the_age(self):
         """What was seen: the dock had not been seen for 40 s, and the vehicle set off to where it had been."""
-        dock = TransformStamped()
+        transforms = message_class("tf2_msgs/TFMessage")
+        dock = message_class("geometry_msgs/TransformStamped")()
         dock.header.frame_id, dock.header.stamp, dock.child_frame_id = "map", rospy.Time.now(), "dock"
         dock.transform.translation.x, dock.transform.rotation.w = 1.0, 1.0
-        broadcaster = tf2_ros.TransformBroadcaster()
-        self.wait_for(lambda: broadcaster.pub_tf.get_num_connections() >= 3)
-        broadcaster.sendTransform(dock)
+        broadcaster = rospy.Publisher("/tf", transforms, queue_size=1)
+        self.wait_for(lambda: broadcaster.get_num_connections() >= 3)
+        broadcaster.publish([dock])
         self.wait_for(lambda: rospy.Time.now() - dock.header.stamp > rospy.Duration(5))
         self.send(pose(1, 1, frame="dock"))
         text = self.ends("ABORTED")
