@@ -20,6 +20,8 @@ namespace {
 constexpr int kEdits = 100;
 constexpr int kSide = 60;
 
+class PlannerMaps : public test::PlannerTest {};
+
 class PlanningMaps : public test::PlannerTest {
  protected:
   // The fixture and shown_ are one node, which takes updates.
@@ -102,6 +104,61 @@ TEST_F(PlanningMaps, ANewSubscriberHasTheMapAsItIsAfterUpdates) {
   test::WholeMapListener late("/planning_map");
   ASSERT_TRUE(late.hasMap());
   EXPECT_TRUE(test::waitFor([&] { return late.grid().values() == map_.values(); }));
+}
+
+// As octomap_server does: its first map has no cells and no frame, each later one no orientation. The first was refused as
+// bad, and so were all others.
+TEST_F(PlannerMaps, OctomapServersAreTaken) {
+  startPlanner();
+  placeVehicle(0.5, 0.5);
+  maps_.publish(nav_msgs::OccupancyGrid());
+  sendGoal(test::poseAt(5.5, 0.5));
+  EXPECT_EQ(answer_.status, "NO_MAP") << answer_.message;
+  auto message = occupancyToMessage(test::AsciiMap(test::kRoom).map, "map", ros::Time::now());
+  message.info.origin.orientation.w = 0.0;
+  publishMap(message);
+  makePlan({}, test::poseAt(5.5, 2.5));
+  EXPECT_EQ(answer_.status, "FOUND") << answer_.message;
+  maps_.publish(nav_msgs::OccupancyGrid());  // as its ~reset does
+  map_msgs::OccupancyGridUpdate wall;
+  wall.header.stamp = ros::Time::now();
+  wall.x = 5;
+  wall.width = 1;
+  wall.height = 3;
+  wall.data = {100, 100, 100};
+  updates_.publish(wall);
+  EXPECT_TRUE(test::waitFor([&] {
+    makePlan({}, test::poseAt(5.5, 2.5));
+    return answer_.status == "GOAL_OCCUPIED";
+  })) << "the map before stays, and its updates are laid on it: "
+      << answer_.message;
+  for (const rosgraph_msgs::Log& line : log_.all())
+    EXPECT_LT(line.level, rosgraph_msgs::Log::ERROR) << line.msg;
+}
+
+// gmapping's maps change their size and origin, and have no map_load_time.
+TEST_F(PlannerMaps, AGoalThatStandsIsJudgedInEachNewMap) {
+  startPlanner();
+  placeVehicle(0.5, 0.5);
+  const auto sendMap = [&](const std::vector<std::string>& picture, double x) {
+    const std::size_t seen = statistics_.count(), seen_paths = paths_.count();
+    auto message = occupancyToMessage(test::AsciiMap(picture, 1.0, {x, 0.0, 0.0}).map, "map",
+                                      ros::Time::now());
+    message.info.map_load_time = ros::Time();
+    maps_.publish(message);
+    return std::pair(seen, seen_paths);
+  };
+  sendMap({"......"}, 0.0);
+  ASSERT_TRUE(planning_maps_.waitForMoreThan(0));
+  sendGoal(test::poseAt(8.5, 0.5));
+  EXPECT_EQ(answer_.status, "GOAL_OUTSIDE_MAP") << answer_.message;
+  const auto grown = sendMap({"............"}, -2.0);
+  waitForAnswer(grown.first, grown.second);
+  EXPECT_EQ(answer_.status, "FOUND") << answer_.message;
+  EXPECT_TRUE(endsAt(path_.poses.back(), 8.5, 0.5));
+  const auto walled = sendMap({"........#......"}, -3.0);
+  waitForAnswer(walled.first, walled.second);
+  EXPECT_EQ(answer_.status, "UNREACHABLE") << answer_.message;
 }
 
 class CostsToGo : public test::PlannerTest {
