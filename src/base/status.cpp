@@ -33,4 +33,10 @@ std::string_view toString(Status status) {
   return "INVALID_REQUEST";
 }
 
+std::optional<Status> statusFromName(std::string_view name) {
+  for (int i = 0; i <= static_cast<int>(Status::INVALID_REQUEST); ++i)
+    if (toString(static_cast<Status>(i)) == name) return static_cast<Status>(i);
+  return std::nullopt;
+}
+
 }  // namespace grid_path_planner::base

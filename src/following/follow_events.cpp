@@ -42,8 +42,16 @@ const char* toString(DriveStatus status) {
       return "MISSED_WAYPOINT";
     case DriveStatus::INVALID_POSE:
       return "INVALID_POSE";
+    case DriveStatus::INVALID_REQUEST:
+      return "INVALID_REQUEST";
   }
   return "?";
+}
+
+std::optional<DriveStatus> driveStatusFromName(std::string_view name) {
+  for (int i = 0; i <= static_cast<int>(DriveStatus::INVALID_REQUEST); ++i)
+    if (toString(static_cast<DriveStatus>(i)) == name) return static_cast<DriveStatus>(i);
+  return std::nullopt;
 }
 
 void FollowEvents::report(FollowEvent::Kind kind, int waypoint, const std::string& message) {

@@ -17,9 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-Status statusFromName(const std::string& name) {
-  for (int i = 0; i <= static_cast<int>(Status::INVALID_REQUEST); ++i)
-    if (toString(static_cast<Status>(i)) == name) return static_cast<Status>(i);
+Status statusOf(const std::string& name) {
+  if (const auto status = base::statusFromName(name)) return *status;
   throw InputError("no status is called '" + name + "'");
 }
 
@@ -79,7 +78,7 @@ StudyRun runFromLine(const std::string& line) {
     run.start = cellFrom(object.at("start"));
     run.goal = cellFrom(object.at("goal"));
     object.at("note").get_to(run.note);
-    run.status = statusFromName(object.at("status").get<std::string>());
+    run.status = statusOf(object.at("status").get<std::string>());
     object.at("message").get_to(run.message);
     object.at("cost").get_to(run.cost);
     object.at("optimum").get_to(run.optimum);

@@ -20,6 +20,13 @@ TEST(Status, NamesAndOrder) {
     EXPECT_EQ(toString(static_cast<Status>(i)), names[i]);
 }
 
+TEST(Status, EachIsReadFromItsNameAndNothingElseIs) {
+  for (int i = 0; i <= static_cast<int>(Status::INVALID_REQUEST); ++i)
+    EXPECT_EQ(statusFromName(toString(static_cast<Status>(i))), static_cast<Status>(i));
+  for (const char* name : {"", "found", "FOUND ", "ARRIVED", "0"})
+    EXPECT_EQ(statusFromName(name), std::nullopt) << name;
+}
+
 TEST(Statistics, OfTwoSearchesCountersAddUpAndSizesDoNot) {
   Statistics a{10, 20, 1, 300, 0.5, 4000};
   a += Statistics{1, 2, 3, 400, 0.25, 50};

@@ -82,7 +82,7 @@ class Story {
     else if (word == "drop")
       navigator.drop();
     else if (word == "FOUND")
-      navigator.planned({"FOUND", "a path", straight(number)}, now);
+      navigator.planned({base::Status::FOUND, "a path", straight(number)}, now);
     else if (word == "at")
       navigator.moved({{number, 0.0, 0.0}, 0.0});
     else if (word == "drives")
@@ -96,9 +96,9 @@ class Story {
     else if (word == "seconds")
       for (const double end = now + number; now < end - 1e-9;) navigator.tick(now += 0.05);
     else if (word.rfind("end:", 0) == 0)
-      navigator.driveEnded(word.substr(4), "so it ended", now);
+      navigator.driveEnded(following::driveStatusFromName(word.substr(4)), "so it ended", now);
     else
-      navigator.planned({word, "so it was answered"}, now);
+      navigator.planned({base::statusFromName(word), "so it was answered"}, now);
   }
 
   std::string orders() {

@@ -65,7 +65,7 @@ TEST(Navigator, WhatWasDrivenSinceTheFeedbackIsNoOtherPath) {
                        {"seconds 2.1", "PLAN"}});
   Path rest = straight(20);
   rest.poses[0].position.x() = 9.0;
-  story.navigator.planned({"FOUND", "a path", rest}, story.now);
+  story.navigator.planned({base::Status::FOUND, "a path", rest}, story.now);
   EXPECT_EQ(story.after("seconds 0.1"), "");
 }
 
@@ -131,7 +131,7 @@ TEST(Navigator, UnreachableIsAbortedWithThePlannersSentenceAfterEveryStep) {
 }
 
 TEST(Navigator, WhatCannotBecomeBetterIsAbortedAtOnce) {
-  for (const char* status : {"INVALID_REQUEST", "GOAL_OUTSIDE_MAP", Navigator::kNoAnswer}) {
+  for (const char* status : {"INVALID_REQUEST", "GOAL_OUTSIDE_MAP", "NO_ANSWER"}) {
     Story story;
     expectOrders(story, {{"start", "PLAN"}, {status, "ABORT"}, {"seconds 60", ""}});
   }

@@ -4,6 +4,7 @@
 // bug of our own an assert.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 namespace grid_path_planner::base {
@@ -24,5 +25,7 @@ enum class Status {
 
 // The enumerator's own name, e.g. "START_OCCUPIED".
 std::string_view toString(Status status);
+// None for any other name. Where messages and files bring names, this is how they become a status.
+std::optional<Status> statusFromName(std::string_view name);
 
 }  // namespace grid_path_planner::base

@@ -29,6 +29,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grid_path_planner/base/body_velocity.h"
@@ -55,10 +56,13 @@ enum class DriveStatus {
   TF_STALE,
   NO_PROGRESS,
   MISSED_WAYPOINT,
-  INVALID_POSE
+  INVALID_POSE,
+  INVALID_REQUEST  // of a drive that was refused before it began
 };
 // The enumerator's own name.
 const char* toString(DriveStatus status);
+// None for any other name.
+std::optional<DriveStatus> driveStatusFromName(std::string_view name);
 
 // Where a path is begun: at its first waypoint, or at its point nearest to the vehicle.
 enum class Join { FIRST, NEAREST };

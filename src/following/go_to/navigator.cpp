@@ -12,6 +12,7 @@
 namespace grid_path_planner::following {
 
 using base::decimalText;
+using base::Status;
 using path::lengthOf;
 using path::Path;
 using path::Pose;
@@ -31,12 +32,20 @@ std::string lengthText(double length) {
   return decimalText(std::round(100.0 * length) / 100.0) + " m";
 }
 
-bool isOneOf(const std::string& status, std::initializer_list<const char*> names) {
-  return std::any_of(names.begin(), names.end(), [&](const char* name) { return status == name; });
+template <class Status>
+bool isOneOf(const std::optional<Status>& status, std::initializer_list<Status> all) {
+  return status && std::find(all.begin(), all.end(), *status) != all.end();
 }
 
-std::string answerText(const std::string& status, const std::string& message) {
-  return status + ": " + message;
+template <class Status>
+std::string answerText(const std::optional<Status>& status, const std::string& message) {
+  return (status ? std::string(toString(*status)) : "NO_ANSWER") + ": " + message;
+}
+
+// After these no other drive is tried.
+bool endsTheGoal(const std::optional<DriveStatus>& status) {
+  return isOneOf(status,
+                 {DriveStatus::CANCELLED, DriveStatus::INVALID_POSE, DriveStatus::INVALID_REQUEST});
 }
 
 }  // namespace
@@ -127,7 +136,7 @@ void Navigator::planned(const NavigatorPlan& plan, double now) {
   if (state_ == NavigatorState::DRIVING) {
     replanned(plan, now);
   } else if (state_ == NavigatorState::PLANNING) {
-    if (plan.status == "FOUND" && !plan.path.empty())
+    if (plan.status == Status::FOUND && !plan.path.empty())
       drivePlan(plan, "drives");
     else
       planFailed(plan, now);
@@ -136,9 +145,10 @@ void Navigator::planned(const NavigatorPlan& plan, double now) {
 
 void Navigator::planFailed(const NavigatorPlan& plan, double now) {
   const std::string reason = answerText(plan.status, plan.message);
-  if (plan.status == "CANCELLED" && ++replaced_ <= kMostReplaced)
+  if (plan.status == Status::CANCELLED && ++replaced_ <= kMostReplaced)
     plan_again_at_ = now + kReplacedPause;
-  else if (isOneOf(plan.status, {"INVALID_REQUEST", "GOAL_OUTSIDE_MAP", "CANCELLED", kNoAnswer}))
+  else if (!plan.status || isOneOf(plan.status, {Status::INVALID_REQUEST, Status::GOAL_OUTSIDE_MAP,
+                                                 Status::CANCELLED}))
     finish(Kind::ABORT, reason, now);
   else
     recover(reason, now);
@@ -161,15 +171,16 @@ void Navigator::drivePlan(const NavigatorPlan& plan, const std::string& why) {
 // The path that is driven goes on, where the answer is no verdict on the goal. Where what is ahead is occupied, paths that
 // are as long as what is left may still be others, but hardly for the third time.
 void Navigator::replanned(const NavigatorPlan& plan, double now) {
-  if (plan.status == "FOUND" && !plan.path.empty()) {
+  if (plan.status == Status::FOUND && !plan.path.empty()) {
     if (isWorthIt(plan.path) || (blocked_since_ && ++alternatives_ <= kMostAlternatives))
       drivePlan(plan, "instead of " + lengthText(remaining_) + ", drives");
   } else if (drive_state_ == NavigatorDrive::State::PAUSED) {
     tell(Kind::TELL, "planned in vain while paused: " + answerText(plan.status, plan.message));
-  } else if (isOneOf(plan.status, {"UNREACHABLE", "GOAL_OCCUPIED", "GOAL_OUTSIDE_MAP"})) {
+  } else if (isOneOf(plan.status,
+                     {Status::UNREACHABLE, Status::GOAL_OCCUPIED, Status::GOAL_OUTSIDE_MAP})) {
     stopDrive();
     planFailed(plan, now);
-  } else if (plan.status != "CANCELLED") {
+  } else if (plan.status != Status::CANCELLED) {
     tell(Kind::WARN, "planned in vain while driving: " + answerText(plan.status, plan.message));
   }
 }
@@ -218,7 +229,8 @@ void Navigator::notePathAhead(const NavigatorDrive& drive, double now) {
     blocked_since_.reset();
 }
 
-void Navigator::driveEnded(const std::string& status, const std::string& message, double now) {
+void Navigator::driveEnded(std::optional<DriveStatus> status, const std::string& message,
+                           double now) {
   drive_active_ = false;
   const std::string reason = answerText(status, message);
   if (state_ == NavigatorState::STOPPING) {
@@ -226,9 +238,9 @@ void Navigator::driveEnded(const std::string& status, const std::string& message
   } else if (state_ == NavigatorState::RECOVERING && !wait_until_) {
     recoveryDriveEnded(status, message, now);
   } else if (state_ == NavigatorState::DRIVING) {
-    if (status == "ARRIVED")
+    if (status == DriveStatus::ARRIVED)
       finish(Kind::SUCCEED, arrival_note_.empty() ? reason : reason + "; " + arrival_note_, now);
-    else if (isOneOf(status, {"CANCELLED", "INVALID_POSE", "INVALID_REQUEST"}))
+    else if (endsTheGoal(status))
       finish(Kind::ABORT, reason, now);
     else
       recover(reason, now);
@@ -244,11 +256,10 @@ void Navigator::tick(double now) {
     wait_until_.reset();
     plan(0.0, now);
   } else if (drive_active_ && blocked_since_ && now - *blocked_since_ >= options_.blocked_timeout) {
-    const std::string reason = "BLOCKED: " + sentence_;
     if (state_ == NavigatorState::RECOVERING)
-      recoveryDriveEnded("BLOCKED", sentence_, now);
+      recoveryDriveEnded(DriveStatus::BLOCKED, sentence_, now);
     else
-      recover(reason, now);
+      recover(answerText<DriveStatus>(DriveStatus::BLOCKED, sentence_), now);
   } else if (state_ == NavigatorState::DRIVING && !plan_pending_ && isReplanDue(now)) {
     plan(tolerance_, now);
   }
@@ -322,13 +333,13 @@ bool Navigator::leaveOut(const std::string& why) {
 }
 
 // However it ended, it may have helped.
-void Navigator::recoveryDriveEnded(const std::string& status, const std::string& message,
+void Navigator::recoveryDriveEnded(std::optional<DriveStatus> status, const std::string& message,
                                    double now) {
-  if (isOneOf(status, {"CANCELLED", "INVALID_POSE", "INVALID_REQUEST"})) {
+  if (endsTheGoal(status)) {
     finish(Kind::ABORT, answerText(status, message), now);
     return;
   }
-  const bool arrived = status == "ARRIVED";
+  const bool arrived = status == DriveStatus::ARRIVED;
   if (!arrived) {
     stopDrive();
     tell(Kind::WARN, std::string(toString(*step_)) + ": " + answerText(status, message));

@@ -2,7 +2,7 @@
 //
 //   Navigator navigator(options);
 //   navigator.start(now);
-//   navigator.planned({"FOUND", "a path of 7 m", path}, now);          // what the planner and the driver answer
+//   navigator.planned({base::Status::FOUND, "a path of 7 m", path}, now);  // what the planner and the driver answer
 //   navigator.drove({NavigatorDrive::State::DRIVING, 4.2}, now);
 //   navigator.tick(now);                                               // at any rate
 //   for (const NavigatorOrder& order : navigator.takeOrders()) carryOut(order);
@@ -30,6 +30,8 @@
 #include "following/go_to/driven_track.h"
 #include "following/go_to/navigator_options.h"
 #include "following/go_to/recovery_steps.h"
+#include "grid_path_planner/base/status.h"
+#include "grid_path_planner/following/path_follower.h"
 #include "grid_path_planner/path/path.h"
 
 namespace grid_path_planner::following {
@@ -58,9 +60,9 @@ struct NavigatorOrder {
   path::Path path = {};       // DRIVE
 };
 
-// The planner's answer: a name of base::Status, or kNoAnswer, with its sentence.
+// The planner's answer with its sentence. No status: it is gone, or has answered what is none.
 struct NavigatorPlan {
-  std::string status;
+  std::optional<base::Status> status;
   std::string message;
   path::Path path = {};
 };
@@ -75,8 +77,6 @@ struct NavigatorDrive {
 
 class Navigator {
  public:
-  static constexpr const char* kNoAnswer =
-      "NO_ANSWER";                             // the status of a planner or driver that is gone
   static constexpr double kProgress = 0.5;     // m
   static constexpr double kStopTimeout = 2.0;  // s
   static constexpr double kClearing = 1.0;     // s, in which the map comes without what was cleared
@@ -96,8 +96,8 @@ class Navigator {
   void moved(const path::Pose& pose);
   void planned(const NavigatorPlan& plan, double now);
   void drove(const NavigatorDrive& drive, double now);
-  // A name of DriveStatus, INVALID_REQUEST or kNoAnswer.
-  void driveEnded(const std::string& status, const std::string& message, double now);
+  // No status: the driver is gone, or has answered what is none.
+  void driveEnded(std::optional<DriveStatus> status, const std::string& message, double now);
   void tick(double now);
 
   std::vector<NavigatorOrder> takeOrders();
@@ -123,7 +123,8 @@ class Navigator {
   bool beginStep(RecoveryStep step, double now);
   bool backOff();
   bool turn();
-  void recoveryDriveEnded(const std::string& status, const std::string& message, double now);
+  void recoveryDriveEnded(std::optional<DriveStatus> status, const std::string& message,
+                          double now);
   bool leaveOut(const std::string& why);
 
   void drive(path::Path path);
