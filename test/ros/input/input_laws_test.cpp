@@ -18,7 +18,7 @@ using Moment = InputJudge::Moment;
 using Order = InputRules::Order;
 using Strings = std::set<std::string>;
 
-constexpr double kNow = 5000.0;  // s
+constexpr double kTestTime = 5000.0;  // s
 
 Moment momentAt(double time, double wall) {
   return {ros::Time(time), std::chrono::steady_clock::time_point(
@@ -60,10 +60,10 @@ struct Fate {
 class Reference {
  public:
   Reference(const InputRules& rules, const Case& c) : rules_(rules), case_(c) {
-    stamp_ = c.has_stamp ? kNow - c.age : kNow;
+    stamp_ = c.has_stamp ? kTestTime - c.age : kTestTime;
     if (!c.before || (!c.has_frame && rules.frame_required)) return;
-    const double before = stamp_ + *c.before, came = std::min(before, kNow);
-    const bool is_early = rules.order == Order::RISING && before > kNow;
+    const double before = stamp_ + *c.before, came = std::min(before, kTestTime);
+    const bool is_early = rules.order == Order::RISING && before > kTestTime;
     if (before - came > rules.most_ahead || is_early) return;
     before_used_ = came;
     if (rules.order != Order::ANY) last_ = came;
@@ -75,7 +75,7 @@ class Reference {
   Fate atFirst() const {
     Fate fate{false, false, refusals()};
     if (!fate.reasons.empty()) return fate;
-    fate.waits = isTooEarly(kNow) || (asksTf() && case_.tf != Tf::KNOWN);
+    fate.waits = isTooEarly(kTestTime) || (asksTf() && case_.tf != Tf::KNOWN);
     fate.used = !fate.waits;
     return fate;
   }
@@ -83,9 +83,10 @@ class Reference {
     Fate fate = atFirst();
     if (!fate.waits) return fate;
     const bool placed = !asksTf() || case_.tf != Tf::NEVER;
-    if (!isTooEarly(kNow + case_.later) && placed) return {true, false, {}};
+    if (!isTooEarly(kTestTime + case_.later) && placed) return {true, false, {}};
     if (case_.later <= rules_.tf_wait) return fate;
-    return {false, false, {isTooEarly(kNow + case_.later) ? "ahead of ROS time" : "no transform"}};
+    return {
+        false, false, {isTooEarly(kTestTime + case_.later) ? "ahead of ROS time" : "no transform"}};
   }
   // Whether it is silent at `time`, where the last use was of a stamp, and came, then.
   bool isSilent(double time, std::optional<double> used_stamp, double used_at) const {
@@ -124,11 +125,11 @@ class RowTest {
 
   void run() {
     letBeforeCome();
-    const ros::Time stamp(case_.has_stamp ? kNow - case_.age : 0.0);
+    const ros::Time stamp(case_.has_stamp ? kTestTime - case_.age : 0.0);
     judge_.add({stamp, case_.has_frame ? "sensor" : "", 100}, nullptr, now_);
     expect(reference_.atFirst(), case_.tf == Tf::KNOWN);
-    now_ = momentAt(kNow + case_.later, case_.later);
-    expectProblem(kNow + case_.later);
+    now_ = momentAt(kTestTime + case_.later, case_.later);
+    expectProblem(kTestTime + case_.later);
     expect(reference_.later(), case_.tf != Tf::NEVER);
   }
 
@@ -136,8 +137,8 @@ class RowTest {
   // Of the same frame, as another one has an order of its own.
   void letBeforeCome() {
     if (case_.before) {
-      const double stamp = (case_.has_stamp ? kNow - case_.age : kNow) + *case_.before;
-      now_ = momentAt(std::min(stamp, kNow), std::min(*case_.before, 0.0));
+      const double stamp = (case_.has_stamp ? kTestTime - case_.age : kTestTime) + *case_.before;
+      now_ = momentAt(std::min(stamp, kTestTime), std::min(*case_.before, 0.0));
       judge_.add({ros::Time(stamp), case_.has_frame ? "sensor" : "", 100}, nullptr, now_);
       judge_.place(tfThat(true), now_);
       useAll();
@@ -145,7 +146,7 @@ class RowTest {
       used_before_ = judge_.counts().used;
     }
     refused_before_ = judge_.counts().refused;
-    now_ = momentAt(kNow, 0.0);
+    now_ = momentAt(kTestTime, 0.0);
   }
   void useAll() {
     while (const auto item = judge_.take()) {
@@ -175,10 +176,10 @@ class RowTest {
   void expectProblem(double time) {
     const Fate fate = reference_.atFirst();
     std::optional<double> used = reference_.beforeUsed();
-    double used_at = used ? kNow + std::min(*case_.before, 0.0) : 0.0;
+    double used_at = used ? kTestTime + std::min(*case_.before, 0.0) : 0.0;
     if (fate.used) {
-      used = std::max(used.value_or(0.0), std::min(stampOfCase(), kNow));
-      used_at = kNow;
+      used = std::max(used.value_or(0.0), std::min(stampOfCase(), kTestTime));
+      used_at = kTestTime;
     }
     const auto problem = judge_.problem(now_);
     if (std::isinf(row_.rules.silent_after)) {
@@ -193,7 +194,7 @@ class RowTest {
       EXPECT_EQ(tells_why, !fate.used) << *problem;
     }
   }
-  double stampOfCase() const { return case_.has_stamp ? kNow - case_.age : kNow; }
+  double stampOfCase() const { return case_.has_stamp ? kTestTime - case_.age : kTestTime; }
 
   const InputRow& row_;
   const Case case_;
@@ -206,7 +207,7 @@ class RowTest {
 
 // About each limit of the row, and far beyond.
 std::vector<double> agesOf(const InputRules& rules) {
-  std::vector<double> ages = {0.0, 0.05, -0.05, 4000.0, -4000.0, kNow - 1.0};
+  std::vector<double> ages = {0.0, 0.05, -0.05, 4000.0, -4000.0, kTestTime - 1.0};
   for (const double limit : {rules.oldest, -rules.most_ahead})
     if (!std::isinf(limit))
       for (const double beside : {-0.02, 0.02}) ages.push_back(limit + beside);
@@ -353,7 +354,7 @@ class Sequence {
 
   const InputRules rules_;
   std::mt19937 random_;
-  double time_ = kNow, wall_ = 0.0;
+  double time_ = kTestTime, wall_ = 0.0;
   int next_ = 0;
   std::set<int> alive_;
   std::set<double> stamps_;
@@ -386,11 +387,11 @@ class CrowdTest : public testing::Test {
     return rules;
   }
   void add(InputJudge& judge, double stamp, const std::string& frame, std::size_t bytes = 1) {
-    judge.add({ros::Time(stamp), frame, bytes}, nullptr, momentAt(kNow, 0.0));
+    judge.add({ros::Time(stamp), frame, bytes}, nullptr, momentAt(kTestTime, 0.0));
   }
   std::vector<double> taken(InputJudge& judge) {
     std::vector<double> stamps;
-    judge.place(tfThat(true), momentAt(kNow, 0.0));
+    judge.place(tfThat(true), momentAt(kTestTime, 0.0));
     while (const auto item = judge.take()) stamps.push_back(item->header.stamp.toSec());
     return stamps;
   }
@@ -400,57 +401,57 @@ class CrowdTest : public testing::Test {
 TEST_F(CrowdTest, TheOldestIsKeptWhichTfReachesFirst) {
   for (const Order order : {Order::ANY, Order::RISING, Order::NEWEST}) {
     InputJudge judge("/topic", rules(order, 3), momentAt(1.0, 0.0));
-    for (int i = 0; i < 10; ++i) add(judge, kNow - 5.0 + 0.1 * i, "sensor");
+    for (int i = 0; i < 10; ++i) add(judge, kTestTime - 5.0 + 0.1 * i, "sensor");
     const std::vector<double> stamps = taken(judge);
     ASSERT_EQ(stamps.size(), 3U);
-    EXPECT_NEAR(stamps.front(), kNow - 5.0, 1e-6);
-    EXPECT_NEAR(stamps.back(), kNow - 4.1, 1e-6);
+    EXPECT_NEAR(stamps.front(), kTestTime - 5.0, 1e-6);
+    EXPECT_NEAR(stamps.back(), kTestTime - 4.1, 1e-6);
   }
 }
 
 TEST_F(CrowdTest, NoFrameCrowdsOutAnother) {
   InputJudge judge("/topic", rules(Order::ANY, 4), momentAt(1.0, 0.0));
-  add(judge, kNow - 1.0, "quiet");
-  for (int i = 0; i < 100; ++i) add(judge, kNow, "loud");
-  add(judge, kNow - 0.5, "quiet");
+  add(judge, kTestTime - 1.0, "quiet");
+  for (int i = 0; i < 100; ++i) add(judge, kTestTime, "loud");
+  add(judge, kTestTime - 0.5, "quiet");
   judge.place(
       [](auto&, const std::string& frame, auto&) {
         if (frame == "loud") throw std::runtime_error("not known");
         return Eigen::Isometry3d::Identity();
       },
-      momentAt(kNow, 0.0));
+      momentAt(kTestTime, 0.0));
   EXPECT_TRUE(judge.take() && judge.take());
 }
 
 TEST_F(CrowdTest, WhatWaitsIsBoundedInBytesButForOne) {
   InputJudge judge("/topic", rules(Order::ANY, 100), momentAt(1.0, 0.0));
   const std::size_t most = InputRules().most_bytes;
-  for (int i = 0; i < 10; ++i) add(judge, kNow, "sensor", most / 4);
+  for (int i = 0; i < 10; ++i) add(judge, kTestTime, "sensor", most / 4);
   EXPECT_EQ(judge.counts().waiting, 4U);
   EXPECT_EQ(judge.counts().refused.at("too many bytes waiting"), 6U);
-  add(judge, kNow, "sensor", 2 * most);
+  add(judge, kTestTime, "sensor", 2 * most);
   EXPECT_EQ(judge.counts().waiting, 1U);
 }
 
 TEST_F(CrowdTest, OfThoseThatMayBeUsedTheNewestAreKept) {
   InputJudge judge("/topic", rules(Order::RISING, 2), momentAt(1.0, 0.0));
   for (const double age : {0.5, 0.4, 0.3, 0.2}) {
-    add(judge, kNow - age, "sensor");
-    judge.place(tfThat(true), momentAt(kNow, 0.0));
+    add(judge, kTestTime - age, "sensor");
+    judge.place(tfThat(true), momentAt(kTestTime, 0.0));
   }
   const std::vector<double> stamps = taken(judge);
   ASSERT_EQ(stamps.size(), 2U);
-  EXPECT_NEAR(stamps.front(), kNow - 0.3, 1e-6);
+  EXPECT_NEAR(stamps.front(), kTestTime - 0.3, 1e-6);
   EXPECT_EQ(judge.counts().refused.at("faster than they are used"), 2U);
 }
 
 // Two lasers on one topic, at the same time: one of them was never used.
 TEST_F(CrowdTest, EachFrameHasItsOwnOrder) {
   InputJudge judge("/topic", rules(Order::RISING, 5), momentAt(1.0, 0.0));
-  add(judge, kNow - 0.1, "front");
-  add(judge, kNow - 0.1, "rear");
+  add(judge, kTestTime - 0.1, "front");
+  add(judge, kTestTime - 0.1, "rear");
   EXPECT_EQ(taken(judge).size(), 2U);
-  add(judge, kNow - 0.1, "rear");
+  add(judge, kTestTime - 0.1, "rear");
   EXPECT_EQ(taken(judge).size(), 0U);
 }
 
@@ -461,17 +462,17 @@ TEST_F(CrowdTest, AnotherClockIsToldWithItsDifference) {
   std::vector<std::string> told;
   InputJudge judge("/topic", rules, momentAt(1.0, 0.0),
                    [&](const std::string& sentence) { told.push_back(sentence); });
-  for (int i = 0; i < 10; ++i) add(judge, kNow - 3600.0, "laser");
+  for (int i = 0; i < 10; ++i) add(judge, kTestTime - 3600.0, "laser");
   ASSERT_EQ(told.size(), 1U) << "once in 5 s";
   const std::string why =
       "it is 3600.0 s old, more than 10 s: its clock is another one than ROS time; a bag that is "
       "played needs use_sim_time";
   EXPECT_EQ(told[0], "A message on /topic in frame 'laser' stamped 1400.000 is refused: " + why +
                          " (1 for this reason so far)");
-  EXPECT_EQ(judge.problem(momentAt(kNow, 0.0)),
+  EXPECT_EQ(judge.problem(momentAt(kTestTime, 0.0)),
             "nothing that can be used has come on /topic yet: " + why);
   EXPECT_EQ(judge.counts().last_refusal, why);
-  add(judge, kNow + 1e8, "laser");
+  add(judge, kTestTime + 1e8, "laser");
   EXPECT_NE(told.at(1).find("100000000.0 s ahead"), std::string::npos) << told[1];
 }
 
@@ -479,19 +480,20 @@ TEST_F(CrowdTest, ARefusalIsNoReasonForASilenceAfterwards) {
   InputRules rules;
   rules.silent_after = 1.0;
   InputJudge judge("/topic", rules, momentAt(1.0, 0.0));
-  add(judge, kNow - 3600.0, "laser");
-  add(judge, kNow, "laser");
-  judge.countUsed(judge.take().value(), momentAt(kNow, 0.0));
-  EXPECT_EQ(judge.problem(momentAt(kNow, 0.9)), std::nullopt);
-  EXPECT_EQ(judge.problem(momentAt(kNow, 1.1)), "/topic has been silent for longer than 1 s");
-  add(judge, kNow - 3600.0, "laser");
-  EXPECT_EQ(judge.problem(momentAt(kNow, 1.1))->find("nothing that can be used has come on /topic"),
-            0U);
+  add(judge, kTestTime - 3600.0, "laser");
+  add(judge, kTestTime, "laser");
+  judge.countUsed(judge.take().value(), momentAt(kTestTime, 0.0));
+  EXPECT_EQ(judge.problem(momentAt(kTestTime, 0.9)), std::nullopt);
+  EXPECT_EQ(judge.problem(momentAt(kTestTime, 1.1)), "/topic has been silent for longer than 1 s");
+  add(judge, kTestTime - 3600.0, "laser");
+  EXPECT_EQ(
+      judge.problem(momentAt(kTestTime, 1.1))->find("nothing that can be used has come on /topic"),
+      0U);
 }
 
 TEST_F(CrowdTest, WhatAnErrorEndedIsCounted) {
   InputJudge judge("/topic", {}, momentAt(1.0, 0.0));
-  add(judge, kNow, "sensor");
+  add(judge, kTestTime, "sensor");
   ASSERT_TRUE(judge.take());
   EXPECT_EQ(judge.counts().waiting, 1U);
   judge.giveUp();
