@@ -135,7 +135,7 @@ bool PlanServices::saveWaypoints(SaveWaypoints::Request& request,
                                  SaveWaypoints::Response& response) {
   const std::string file =
       request.filename.empty() ? server_.settings().options.waypoints_file : request.filename;
-  const std::optional<Path> waypoints = server_.lastWaypoints();
+  const std::optional<Path> waypoints = server_.lastAnswer()->waypoints;
   if (file.empty()) {
     response.message = "no filename was given and ~waypoints_file is empty";
   } else if (!waypoints) {
