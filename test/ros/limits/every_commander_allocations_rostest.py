@@ -19,7 +19,6 @@ from commanders import COMMANDERS, DEADLINE, CommanderTest, RunningCommander  # 
 from nodes_without_memory import failing_allocations, skip_where_sanitized  # noqa: E402
 from own_master import start_own_master  # noqa: E402
 from running_nodes import PACKAGE  # noqa: E402
-from session_clock import session_seconds  # noqa: E402
 
 ROUNDS, ENDS = 8, 5
 SHORT_OF_MEMORY = 0.4  # s
@@ -47,15 +46,15 @@ class EveryCommanderAllocations(CommanderTest):
                 os.remove(switch)
                 self.assertIsNotNone(seconds, str(node))
                 self.assertEqual(0, node.processes[-1].returncode, "%s: %s" % (node, self.said(node)))
-                self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, session_seconds() + DEADLINE), str(node))
+                self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, time.monotonic() + DEADLINE), str(node))
 
     def test_zeros_that_memory_kept_back_come_when_it_is_there(self):
         for name in COMMANDERS:
             switch = os.path.join(self.folder, name)
             node = self.running(name, switch)
-            rounds, failures, deadline = 0, 0, session_seconds() + DEADLINE
+            rounds, failures, deadline = 0, 0, time.monotonic() + DEADLINE
             while rounds < ROUNDS or failures <= ROUNDS:  # a busy machine's thread allocates seldom
-                self.assertLess(session_seconds(), deadline, "%s: %d failures in %d rounds" % (name, failures, rounds))
+                self.assertLess(time.monotonic(), deadline, "%s: %d failures in %d rounds" % (name, failures, rounds))
                 failures += self.failures_of_a_halt(node, switch)
                 rounds += 1
             self.assertTrue(self.moves(node), "%s: %s" % (name, self.said(node)))

@@ -16,8 +16,7 @@ import rospy
 import rostest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from nodes_without_memory import (PACKAGE, SECONDS, NodesWithoutMemory, RunningNode, failing_allocations,  # noqa: E402
-                                  session_seconds)
+from nodes_without_memory import (PACKAGE, SECONDS, NodesWithoutMemory, RunningNode, failing_allocations)  # noqa: E402
 from node_table import NODES  # noqa: E402
 from own_master import start_own_master  # noqa: E402
 
@@ -40,11 +39,11 @@ class EveryNodeAllocations(NodesWithoutMemory):
                 node.end(signal.SIGKILL)
 
     def failures_of(self, node):
-        asker = threading.Thread(target=node.row.probe, args=(node, session_seconds() + SHORT_OF_MEMORY), daemon=True)
+        asker = threading.Thread(target=node.row.probe, args=(node, time.monotonic() + SHORT_OF_MEMORY), daemon=True)
         with open(self.switch, "w"):
             asker.start()
-        end = session_seconds() + SHORT_OF_MEMORY
-        while session_seconds() < end and node.lives():
+        end = time.monotonic() + SHORT_OF_MEMORY
+        while time.monotonic() < end and node.lives():
             for topic, kind in node.fed():
                 if topic not in ("tf", "tf_static"):  # which come all the time, and are right
                     node.send(topic, node.right(kind))

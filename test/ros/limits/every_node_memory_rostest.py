@@ -9,6 +9,7 @@ import resource
 import signal
 import subprocess
 import sys
+import time
 
 import rospy
 import rostest
@@ -16,7 +17,7 @@ from roslib.message import get_service_class
 from rosgraph_msgs.msg import Clock
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from nodes_without_memory import PACKAGE, SECONDS, NodesWithoutMemory, RunningNode, executable, probes, session_seconds  # noqa: E402
+from nodes_without_memory import PACKAGE, SECONDS, NodesWithoutMemory, RunningNode, executable, probes  # noqa: E402
 from hostile_messages import serialized  # noqa: E402
 from large_messages import LARGE, has_size, large  # noqa: E402
 from node_table import NODES  # noqa: E402
@@ -73,7 +74,7 @@ class EveryNodeMemory(NodesWithoutMemory):
             node.send(topic, message)
             said = []
             if room < 1.0:
-                self.holds(probes.until(node, lambda: self.says(log, said), session_seconds() + SECONDS), node, topic)
+                self.holds(probes.until(node, lambda: self.says(log, said), time.monotonic() + SECONDS), node, topic)
             self.holds(self.answers(node), node, "after %s with room for %g of its size" % (topic, room))
         limit(pid)
 
@@ -83,7 +84,7 @@ class EveryNodeMemory(NodesWithoutMemory):
         node = RunningNode("map_publisher", self.map_publisher, "process", self.clock, self.folder, "/serves")
         self.addCleanup(node.end, signal.SIGKILL)
         request, pid = get_service_class("nav_msgs/GetMap")._request_class(), node.processes[0].pid
-        self.holds(probes.until(node, lambda: node.call("static_map", request), session_seconds() + SECONDS), node)
+        self.holds(probes.until(node, lambda: node.call("static_map", request), time.monotonic() + SECONDS), node)
         for copies in (0.5, 1.5):  # for the answer, and what is sent of it
             limit(pid, address_space(pid) + int(copies * side * side))
             self.assertIsNone(node.call("static_map", request))
@@ -103,16 +104,16 @@ class EveryNodeMemory(NodesWithoutMemory):
         self.addCleanup(node.end, signal.SIGKILL)
         with open(node.log.name, errors="replace") as log:
             said = []
-            self.holds(probes.until(node, lambda: self.says(log, said, ["no /clock has come"]), session_seconds() + SECONDS), node)
+            self.holds(probes.until(node, lambda: self.says(log, said, ["no /clock has come"]), time.monotonic() + SECONDS), node)
             limit(node.processes[0].pid, address_space(node.processes[0].pid) + side * side // 2)
 
             def is_refused():
                 clock.publish(Clock(rospy.Time.now()))
                 return self.says(log, said)
-            self.holds(probes.until(node, is_refused, session_seconds() + SECONDS), node, "by its clock")
+            self.holds(probes.until(node, is_refused, time.monotonic() + SECONDS), node, "by its clock")
         self.assertEqual([], node.heard("projected_map"))
         limit(node.processes[0].pid)
-        self.holds(probes.until(node, lambda: node.heard("projected_map"), session_seconds() + SECONDS), node, "with memory")
+        self.holds(probes.until(node, lambda: node.heard("projected_map"), time.monotonic() + SECONDS), node, "with memory")
         self.assertEqual(side * side, len(node.heard("projected_map")[-1].data))
 
     def test_a_large_map_is_sent_from_huge_pages(self):
@@ -120,7 +121,7 @@ class EveryNodeMemory(NodesWithoutMemory):
         self.write_map(4000)
         node = RunningNode("map_publisher", self.map_publisher, "process", self.clock, self.folder, "/sends")
         self.addCleanup(node.end, signal.SIGKILL)
-        self.holds(probes.until(node, lambda: node.heard("projected_map"), session_seconds() + SECONDS), node)
+        self.holds(probes.until(node, lambda: node.heard("projected_map"), time.monotonic() + SECONDS), node)
         with open("/proc/%d/smaps" % node.processes[0].pid) as file:
             self.assertTrue(any(line.startswith("VmFlags:") and "hg" in line.split() for line in file))
 

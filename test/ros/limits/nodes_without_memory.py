@@ -3,6 +3,7 @@ import os
 import signal
 import sys
 import tempfile
+import time
 import unittest
 
 import rospkg
@@ -11,7 +12,6 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, os.pardir, "security")]
 import node_probes as probes  # noqa: E402
 from running_nodes import PACKAGE, Clock, RunningNode, executable, is_sanitized, threads_of  # noqa: E402
-from session_clock import session_seconds  # noqa: E402
 
 SECONDS = 60.0  # for the start, for what is said, for a right answer
 
@@ -44,13 +44,13 @@ class NodesWithoutMemory(unittest.TestCase):
     def started(self, name, row, kind="process"):
         node = RunningNode(name, row, kind, self.clock, self.folder)
         self.addCleanup(node.end, signal.SIGKILL)
-        self.holds(probes.until(node, node.is_connected, session_seconds() + SECONDS), node)
+        self.holds(probes.until(node, node.is_connected, time.monotonic() + SECONDS), node)
         self.holds(self.answers(node), node)
         return node
 
     @staticmethod
     def answers(node):
-        return node.row.probe(node, session_seconds() + SECONDS) and node.lives()
+        return node.row.probe(node, time.monotonic() + SECONDS) and node.lives()
 
     def holds(self, done, node, what="at its start"):
         """Asks the debugger for the node's threads only where it does not."""

@@ -21,7 +21,6 @@ from commanders import COMMANDERS, DEADLINE, CommanderTest, RunningCommander
 from node_table import NODES
 from own_master import start_own_master
 from running_nodes import PACKAGE
-from session_clock import session_seconds
 from slow_master import CeasingMaster
 
 TIMEOUT = 20.0  # s; above what a node takes to notice, on a busy machine too
@@ -54,7 +53,7 @@ class EveryCommanderMaster(CommanderTest):
         self.started.append(node)
         self.assertTrue(self.moves(node), "%s: %s" % (node, self.said(node)))
         self.assertTrue(probes.until(node, lambda: self.says(node, "", DiagnosticStatus.OK),
-                                     session_seconds() + DEADLINE), "%s has no diagnostics" % node)
+                                     time.monotonic() + DEADLINE), "%s has no diagnostics" % node)
         self.assertIsNone(self.says(node, WARNING, DiagnosticStatus.WARN), str(node))
         return node
 
@@ -68,13 +67,13 @@ class EveryCommanderMaster(CommanderTest):
 
         def warned():
             return self.says(node, "%s: the vehicle stands %g s after" % (WARNING, TIMEOUT), DiagnosticStatus.WARN)
-        self.assertTrue(probes.until(node, warned, session_seconds() + DEADLINE), what)
-        self.assertTrue(probes.until(node, lambda: node.moved_after(warned()), session_seconds() + DEADLINE),
+        self.assertTrue(probes.until(node, warned, time.monotonic() + DEADLINE), what)
+        self.assertTrue(probes.until(node, lambda: node.moved_after(warned()), time.monotonic() + DEADLINE),
                         "%s does not go on" % what)
         self.assertTrue(self.stands(node), "%s does not stand: %s" % (what, self.said(node)))
         self.assertGreater(time.monotonic(), begin + TIMEOUT - 2.0, "%s stands too early" % what)
         self.assertTrue(probes.until(node, lambda: self.says(node, WARNING + ": the vehicle stands$", DiagnosticStatus.WARN),
-                                     session_seconds() + DEADLINE), what)
+                                     time.monotonic() + DEADLINE), what)
         return node, master
 
     def test_one_that_falls_silent(self):

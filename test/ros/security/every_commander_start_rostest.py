@@ -10,6 +10,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import rosgraph
@@ -22,10 +23,8 @@ from commanders import COMMANDERS, DEADLINE, VELOCITIES, CommanderTest, RunningC
 from node_table import NODES
 from own_master import start_own_master
 from running_nodes import PACKAGE, RunningNode, executable, nodelet_program
-from session_clock import session_seconds
 from slow_master import SlowMaster
 
-ATTEMPTS = 5  # where the machine may keep a node waiting
 DRIVERS = [name for name in COMMANDERS if "manual_control" in NODES[name].inputs]
 
 
@@ -44,6 +43,20 @@ def conflict(first, second):
     return commands(first) & commands(second) if is_joystick(first) == is_joystick(second) else set()
 
 
+class RegisteringMaster(SlowMaster):
+    """Answers the first question who publishes what, and three others never. `registered_at`: when a topic of one of the
+    types was registered first."""
+
+    def __init__(self, types):
+        self.types, self.registered_at = [kind.encode() for kind in types], None
+        super().__init__(rosgraph.get_master_uri(), 2.0 * DEADLINE, 3, before=1)
+
+    def is_lost(self, question):
+        if not self.registered_at and b"registerPublisher" in question and any(kind in question for kind in self.types):
+            self.registered_at = time.monotonic()
+        return False
+
+
 PAIRS = [(first, second) for first in NODES for second in NODES if conflict(first, second)]
 
 
@@ -58,7 +71,7 @@ class EveryCommanderStart(CommanderTest):
     def first(self, name, kind):
         """A node that is to be alone, all there."""
         node = self.started_node(name, kind)
-        self.assertTrue(probes.until(node, lambda: self.is_up(node.full_name()), session_seconds() + DEADLINE),
+        self.assertTrue(probes.until(node, lambda: self.is_up(node.full_name()), time.monotonic() + DEADLINE),
                         "%s: %s" % (node, self.said(node)))
         return node
 
@@ -115,7 +128,7 @@ class EveryCommanderStart(CommanderTest):
 
             def settled():
                 return all(one.poll() is not None or self.is_up(full_name) for one, full_name in both)
-            self.assertTrue(probes.until(self.anybody(), settled, session_seconds() + DEADLINE), str(node))
+            self.assertTrue(probes.until(self.anybody(), settled, time.monotonic() + DEADLINE), str(node))
             codes = [one.poll() for one, _ in both]
             self.assertTrue(any(code is not None and code != 0 for code in codes), "%s beside %s: %s: %s" % (
                 second, node, codes, self.said(node)))
@@ -124,16 +137,9 @@ class EveryCommanderStart(CommanderTest):
     def test_a_master_that_is_slow_to_answer_gives_no_leave(self):
         """As on a busy machine: it answers after two of the seconds that it is given."""
         for driver in DRIVERS:
-            self.assertTrue(any(self.is_refused_by_a_slow_master(driver) for _ in range(ATTEMPTS)), driver)
-
-    def is_refused_by_a_slow_master(self, driver):
-        """Whether it was slow: a node that itself is kept waiting finds an answer that is late."""
-        slow = SlowMaster(rosgraph.get_master_uri(), 2.0, 2)
-        try:
+            slow = SlowMaster(rosgraph.get_master_uri(), 2.0, 2)
+            self.addCleanup(slow.end)
             self.refused(driver, driver, "process", slow.uri)
-            return len(slow.asked_at) >= 3
-        finally:
-            slow.end()
 
     def test_a_master_that_never_answers_gives_no_leave(self):
         node = self.first(DRIVERS[0], "process")
@@ -143,22 +149,19 @@ class EveryCommanderStart(CommanderTest):
         node.end(signal.SIGKILL)
 
     def test_nothing_is_commanded_before_the_master_has_said_that_it_is_alone(self):
-        """It has asked once before its velocities are registered, and asks again then, which here takes three times; what
-        it is fed and offered would move the vehicle all the while."""
+        """It has asked once before its velocities are registered, and asks again then; three times nobody answers. What it is
+        fed and offered would move the vehicle all the while."""
         for name in COMMANDERS:
-            self.assertTrue(any(self.commands_after_four_answers(name) for _ in range(ATTEMPTS)), name)
-
-    def commands_after_four_answers(self, name):
-        slow = SlowMaster(rosgraph.get_master_uri(), 2.0, 3, before=1)
-        try:
-            node = RunningCommander(name, "process", self.clock, self.folder, master=slow.uri)
+            master = RegisteringMaster(VELOCITIES)
+            self.addCleanup(master.end)
+            node = RunningCommander(name, "process", self.clock, self.folder, master=master.uri)
             self.started.append(node)
-            self.assertTrue(probes.until(node, lambda: node.moved_after(0.0), session_seconds() + DEADLINE,
+            self.assertTrue(probes.until(node, lambda: node.moved_after(0.0), time.monotonic() + DEADLINE,
                                          lambda: node.table.offer(node), 0.3), "%s: %s" % (name, self.said(node)))
             node.end(signal.SIGKILL)
-            return sum(at < node.commands[0][0] for at in slow.asked_at) > 4
-        finally:
-            slow.end()
+            begin = node.commands[0][0]
+            self.assertTrue(any(master.registered_at < came and went < begin for came, went in master.answers),
+                            "%s commanded after %.3f s: %s" % (name, begin - master.registered_at, self.said(node)))
 
     def test_one_that_comes_later_is_told(self):
         """Of this package or not; only navigate_path looked for it."""
@@ -172,7 +175,7 @@ class EveryCommanderStart(CommanderTest):
                 del told[:]
                 return probes.until(node, lambda: any(
                     status.name == node.full_name()[1:] + ": other nodes" and status.level == level and words in status.message
-                    for status in list(told)), session_seconds() + DEADLINE)
+                    for status in list(told)), time.monotonic() + DEADLINE)
             self.assertTrue(says(DiagnosticStatus.OK, "nobody else"), str(node))
             topic = node.resolved(next(topic for topic, kind in NODES[name].outputs.items() if kind == VELOCITIES[0]))
             stranger = subprocess.Popen(["rostopic", "pub", topic, VELOCITIES[0], "{}"], stdout=node.log, stderr=subprocess.STDOUT)
@@ -202,7 +205,7 @@ class EveryCommanderStart(CommanderTest):
                     node = self.first(first, kind)
                     process = self.second(node, second)
                     name = "%s/second_%s" % (node.space, second)
-                    self.assertTrue(probes.until(node, lambda: self.is_up(name), session_seconds() + DEADLINE),
+                    self.assertTrue(probes.until(node, lambda: self.is_up(name), time.monotonic() + DEADLINE),
                                     "%s beside %s: %s" % (second, node, self.said(node)))
                     self.assertIsNone(process.poll() if kind == "process" else None)
                     node.end(signal.SIGKILL)

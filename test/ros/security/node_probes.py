@@ -11,16 +11,15 @@ from right_messages import (
     ARRIVED, FOUND, SUCCEEDED, camera_info, camera_transforms, cloud, drive_goal, go_to_goal, grid, imu, initial_pose, joystick,
     of, path, picture, plan_goal, pose_stamped, scan, sky)
 from roslib.message import get_service_class
-from session_clock import session_seconds
 
 
 def until(node, answered, deadline, send=lambda: None, every=0.2):
-    """Sends again and again until it is answered. False after the deadline (session_clock.py), or when the node has ended."""
+    """Sends again and again until it is answered. False after the deadline, or when the node has ended."""
     due = 0.0
     while node.lives():
         if answered():
             return True
-        if session_seconds() > deadline:
+        if time.monotonic() > deadline:
             return False
         if time.monotonic() > due:
             send()

@@ -18,7 +18,6 @@ import node_probes as probes
 from node_table import NODES
 from own_master import start_own_master
 from running_nodes import PACKAGE, Clock, RunningNode
-from session_clock import session_seconds
 
 DEADLINE = 60.0  # s
 QUIET = 1.5      # s, in which nothing is to come
@@ -37,7 +36,7 @@ class Restart(unittest.TestCase):
         self.until(lambda: all(publisher.get_num_connections() > 0 for publisher in self.node.publishers.values()))
 
     def until(self, done):
-        self.assertTrue(probes.until(self.node, done, session_seconds() + DEADLINE))
+        self.assertTrue(probes.until(self.node, done, time.monotonic() + DEADLINE))
 
     def kill(self):
         self.node.restart()
@@ -60,7 +59,7 @@ class Restart(unittest.TestCase):
 
     def holds(self):
         """It does what it is for."""
-        self.assertTrue(self.node.row.probe(self.node, session_seconds() + DEADLINE))
+        self.assertTrue(self.node.row.probe(self.node, time.monotonic() + DEADLINE))
 
     def test_path_planner_forgets_its_goal_and_gets_a_map(self):
         self.start("path_planner")
@@ -83,7 +82,7 @@ class Restart(unittest.TestCase):
         self.holds()
 
     def until_answered(self, send, topic):
-        self.assertTrue(probes.until(self.node, lambda: self.node.heard(topic), session_seconds() + DEADLINE, send))
+        self.assertTrue(probes.until(self.node, lambda: self.node.heard(topic), time.monotonic() + DEADLINE, send))
 
     def test_navigate_path_drives_nothing_from_before(self):
         self.start("navigate_path")

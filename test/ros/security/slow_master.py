@@ -12,12 +12,12 @@ class Server(http.server.ThreadingHTTPServer):
 
 class SlowMaster:
     """Hands all calls on to `master`; `times` of `method` are answered after `seconds`, once `before` of them have been at
-    once. `asked_at` has when each came (monotonic s)."""
+    once. `asked_at` has when each came (monotonic s), `answers` when each that is answered came and went."""
 
     def __init__(self, master, seconds, times, method="getSystemState", before=0, port=0):
         self.master, self.seconds, self.method = master, seconds, method.encode()
         self.slow_ones = range(before, before + times)
-        self.asked_at, self.lock = [], threading.Lock()
+        self.asked_at, self.answers, self.lock = [], [], threading.Lock()
         self.server = Server(("localhost", port), self.handler())
         self.uri = "http://localhost:%d/" % self.server.server_address[1]
         threading.Thread(target=self.server.serve_forever, daemon=True).start()
@@ -39,7 +39,7 @@ class SlowMaster:
             protocol_version = "HTTP/1.1"
 
             def do_POST(self):  # pylint: disable=invalid-name
-                body = self.rfile.read(int(self.headers["Content-Length"]))
+                came, body = time.monotonic(), self.rfile.read(int(self.headers["Content-Length"]))
                 if slow.is_lost(body):
                     self.close_connection = True
                     return
@@ -49,6 +49,8 @@ class SlowMaster:
                 try:
                     with urllib.request.urlopen(request) as answer:
                         said = answer.read()
+                    if slow.method in body:
+                        slow.answers.append((came, time.monotonic()))
                     self.send_response(200)
                     self.send_header("Content-Type", "text/xml")
                     self.send_header("Content-Length", str(len(said)))
