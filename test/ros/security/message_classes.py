@@ -27,6 +27,7 @@ DEFINITIONS = {
     "sensor_msgs/CameraInfo": "Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] D\n"
                               "float64[9] K\nfloat64[9] R\nfloat64[12] P\nuint32 binning_x\nuint32 binning_y\n"
                               "RegionOfInterest roi\n" + HEADER + REGION,
+    "sensor_msgs/FluidPressure": "Header header\nfloat64 fluid_pressure\nfloat64 variance\n" + HEADER,
     "sensor_msgs/Image": "Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\n"
                          "uint32 step\nuint8[] data\n" + HEADER,
     "sensor_msgs/Joy": "Header header\nfloat32[] axes\nint32[] buttons\n" + HEADER,
