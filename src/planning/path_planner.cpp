@@ -6,10 +6,10 @@
 #include <sstream>
 #include <utility>
 
+#include "grid/foreign_values.h"
 #include "grid_path_planner/base/options.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/planners/planner_factory.h"
-#include "grid/foreign_values.h"
 #include "path/footprint/footprint.h"
 #include "planning/footprint/fitted_plan.h"
 #include "planning/map_store.h"
