@@ -82,7 +82,6 @@ CONTEXT = {
     "cloud_filter.h": """#include "grid_path_planner/mapping/octree_map.h"
         extern OctreeMap map; extern Eigen::Isometry3d map_from_sensor, base_from_map;
         extern std::vector<Eigen::Vector3d> points; extern CloudFilterOptions options;""",
-    "cloud_queue.h": "extern const FrameTransforms transforms; extern CloudQueueOptions options;extern sensor_msgs::PointCloud2::ConstPtr cloud;",
     "cloud_reader.h": "extern sensor_msgs::PointCloud2::ConstPtr message;",
     "read_limits.h": "extern ReadOptions options; extern StopToken stop_token; extern std::string file;"
                      "extern std::size_t cells; extern int row, height; void readRow(int);",

@@ -109,8 +109,8 @@ INPUTS = {
                                          "SaveFile": Part(("file_name", "its name of a file")),
                                          "std_srvs::Empty": NO_REQUEST},
     "ros/mapping/octomap_messages.cpp": {"GetOctomap": NO_REQUEST},
-    "ros/mapping/projected_map_node.cpp": {"ProjectedMapOptions": "config_message",
-                                           "sensor_msgs::PointCloud2": "cloud_message"},
+    "ros/mapping/projected_map_node.cpp": {"ProjectedMapOptions": "config_message"},
+    "ros/mapping/projected_map_node.h": {"sensor_msgs::PointCloud2": "cloud_message"},
     "ros/planning/map_publisher_node.cpp": {"MapPublisherOptions": "config_message", "nav_msgs::GetMap": NO_REQUEST},
     "ros/planning/path_planner_node.cpp": {
         "PathPlannerNodeOptions": "config_message", "geometry_msgs::PoseStamped": "goal_message",

@@ -14,22 +14,15 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr int kRestAfterCounting = 50;  // times what counting the memory took
-constexpr double kCameraSilence = 5.0;  // s without a cloud
-
-std::uint64_t sumOf(const std::map<std::string, std::uint64_t>& dropped) {
-  std::uint64_t sum = 0;
-  for (const auto& [reason, count] : dropped) sum += count;
-  return sum;
-}
 
 }  // namespace
 
 MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
-                                       const CloudQueue& queue, MappingThread& thread,
+                                       const InputBase& clouds, MappingThread& thread,
                                        const ProjectedMapPublisher& map,
                                        const OctreePublisher& octree, const MapAutosave* autosave,
                                        double autosave_period)
-    : queue_(queue),
+    : clouds_(clouds),
       thread_(thread),
       map_(map),
       octree_(octree),
@@ -69,24 +62,25 @@ void MappingDiagnostics::recordInsertion(const MapModel::Inserted& inserted) {
 }
 
 void MappingDiagnostics::reportClouds(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const CloudCounts counts = queue_.counts();
-  const std::uint64_t dropped = sumOf(counts.dropped);
+  const InputCounts counts = clouds_.counts();
+  const auto problem = clouds_.problem();
+  const std::uint64_t dropped = counts.refusedInAll();
   std::lock_guard<std::mutex> lock(mutex_);
   const double age = insertions_ == 0 ? -1.0 : base::secondsSince(inserted_);
   if (dropped > reported_drops_)
     status.summary(DiagnosticStatus::WARN, "clouds are being dropped");
   else if (counts.received == 0)
     status.summary(DiagnosticStatus::OK, "no cloud has come yet");
-  else if (age > kCameraSilence)
-    status.summary(DiagnosticStatus::WARN, "no cloud is mapped any more");
+  else if (problem)
+    status.summary(DiagnosticStatus::WARN, *problem);
   else
     status.summary(DiagnosticStatus::OK, "clouds are mapped");
   reported_drops_ = dropped;
   status.add("received", counts.received);
-  status.add("inserted", counts.inserted);
+  status.add("inserted", counts.used);
   status.add("waiting", counts.waiting);
   status.add("dropped", dropped);
-  for (const auto& [reason, count] : counts.dropped) status.add("dropped: " + reason, count);
+  for (const auto& [reason, count] : counts.refused) status.add("dropped: " + reason, count);
   status.add("last_insertion_s", last_insertion_);
   status.add("last_insertion_age_s", age);
   status.add("mean_insertion_s",

@@ -23,7 +23,7 @@
 #include <mutex>
 
 #include "grid_path_planner/mapping/map_model.h"
-#include "ros/mapping/cloud_queue.h"
+#include "ros/input/input.h"
 #include "ros/mapping/map_autosave.h"
 #include "ros/mapping/mapping_thread.h"
 #include "ros/mapping/octree_publisher.h"
@@ -34,7 +34,7 @@ namespace grid_path_planner::nodes {
 class MappingDiagnostics {
  public:
   // All that is given by reference or pointer outlives this; `autosave` is null where there is none.
-  MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, const CloudQueue& queue,
+  MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, const InputBase& clouds,
                      MappingThread& thread, const ProjectedMapPublisher& map,
                      const OctreePublisher& octree, const MapAutosave* autosave,
                      double autosave_period);
@@ -59,7 +59,7 @@ class MappingDiagnostics {
   void reportMap(diagnostic_updater::DiagnosticStatusWrapper& status);
   void reportAutosave(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  const CloudQueue& queue_;
+  const InputBase& clouds_;
   MappingThread& thread_;
   const ProjectedMapPublisher& map_;
   const OctreePublisher& octree_;

@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/current_error.h"
 #include "grid_path_planner/ProjectedMapConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/guard/ending/end_of_node.h"
@@ -18,7 +17,6 @@
 
 namespace grid_path_planner::nodes {
 
-using base::currentErrorText;
 using base::InputError;
 using base::StopReason;
 using mapping::checkProjectedMapOptions;
@@ -29,7 +27,6 @@ using mapping::ProjectionReference;
 
 namespace {
 
-constexpr double kCloudPeriod = 0.01;    // s of the wall clock between two lookups of transforms
 constexpr double kFirstCloudWait = 5.0;  // s of the wall clock without the first cloud
 constexpr double kDecayPeriod = 1.0;     // s of ROS time; decay visits every occupied voxel
 constexpr double kLongestDecay = 10.0;   // s of ROS time that a step of the decay counts at most
@@ -60,9 +57,22 @@ ProjectedMapOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFil
   return options;
 }
 
-CloudQueueOptions queueOptions(const ProjectedMapOptions& options) {
-  return {options.frame_id, options.cloud.filter_ground ? options.base_frame_id : "",
-          options.tf_timeout, options.queue_size};
+InputRules cloudRules(const ProjectedMapOptions& options) {
+  InputRules rules = rulesOf("projected_map", "cloud_in");
+  rules.frames = {options.frame_id};
+  if (options.cloud.filter_ground) rules.frames.push_back(options.base_frame_id);
+  rules.tf_wait = options.tf_timeout;
+  rules.most_waiting = static_cast<std::size_t>(options.queue_size);
+  return rules;
+}
+
+mapping::CloudFrames framesOf(const std::vector<Eigen::Isometry3d>& poses, bool needs_base) {
+  mapping::CloudFrames frames;
+  frames.map_from_sensor = poses.at(0);
+  if (!needs_base) return frames;
+  if (poses.size() < 2) throw InputError("it came before filter_ground was asked for");
+  frames.base_from_map = poses[1] * poses[0].inverse();
+  return frames;
 }
 
 // With the map that was kept; where it is damaged, as without it. A reading that ends with the node, or for want of
@@ -93,11 +103,7 @@ bool followsVehicle(const MapModel& map) {
 
 ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                                    const NodeFiles& files)
-    : nh_(nh),
-      files_(files),
-      transforms_(nh),
-      queue_(transforms_),
-      service_spinner_(1, &service_queue_) {
+    : nh_(nh), files_(files), transforms_(nh), service_spinner_(1, &service_queue_) {
   ProjectedMapOptions options = loadOptions(private_nh, files);
   ROS_INFO_STREAM(
       memoryLimitLine("The 3-D map", options.octree.memory_limit, memoryLimitOf(options.octree)));
@@ -110,7 +116,8 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   thread_ = makeThread(with_file, autosave_.get());
   thread_->run([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
   options.filename = filename_;
-  queue_.setOptions(queueOptions(options));
+  clouds_ = std::make_unique<Clouds>(nh, "cloud_in", cloudRules(options), transforms_,
+                                     [this] { postInsertion(); });
 
   ros::NodeHandle service_nh(nh);
   service_nh.setCallbackQueue(&service_queue_);
@@ -124,21 +131,11 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
       private_service_nh, *thread_, files_,
       MappingServices::Listener{on_change, [this] { forgetAll(); },
                                 [this](MapModel& map) { insertAll(map); }});
-  diagnostics_ = std::make_unique<MappingDiagnostics>(nh, private_nh, queue_, *thread_,
+  diagnostics_ = std::make_unique<MappingDiagnostics>(nh, private_nh, *clouds_, *thread_,
                                                       *map_publisher_, *octree_publisher_,
                                                       autosave_.get(), options.autosave_period);
   service_spinner_.start();
 
-  on_jump_back_ = NodeTime::of(nh).onJumpBack([this](double seconds) {
-    ROS_WARN_STREAM("ROS time went back by "
-                    << seconds << " s: tf and the clouds that wait are forgotten, the map stays");
-    queue_.clear("ROS time went back");
-  });
-  using CloudEvent = ros::MessageEvent<const sensor_msgs::PointCloud2>;
-  cloud_subscriber_ = subscribeBounded<sensor_msgs::PointCloud2, const CloudEvent&>(
-      nh, "cloud_in", {kAnyNumber, kMostWaitingBytes},
-      [this](const CloudEvent& event) { onCloud(event.getMessage()); });
-  cloud_timer_ = guardedTimer(nh, kCloudPeriod, [this] { resolveTransforms(); });
   if (filename_.empty())
     silence_timer_ = guardedTimerOnce(nh, kFirstCloudWait, [this] { warnOfSilence(); });
   startPublishing(options);
@@ -150,13 +147,12 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
 
 ProjectedMapNode::~ProjectedMapNode() {
   silence_timer_.stop();
-  cloud_timer_.stop();
   publish_timer_.stop();
   heartbeat_timer_.stop();
   autosave_timer_.stop();
   service_spinner_.stop();
   saveAtTheEnd();
-  cloud_subscriber_.shutdown();  // asks the master, which may not answer
+  clouds_->shutdown();  // asks the master, which may not answer
   reconfigurable_.reset();
   services_->shutdown();
   octree_publisher_->shutdown();
@@ -191,7 +187,7 @@ void ProjectedMapNode::use(const ProjectedMapOptions& options) {
   });
   filename_ = options.filename;
   loaded_ = with_file.filename;
-  queue_.setOptions(queueOptions(options));
+  clouds_->setRules(cloudRules(options));
   startPublishing(options);
   postPublishing();
 }
@@ -215,31 +211,21 @@ void ProjectedMapNode::startAutosave(double period) {
 }
 
 void ProjectedMapNode::warnOfSilence() const {
-  ROS_WARN_STREAM("No point cloud has come on " << nh_.resolveName("cloud_in") << " in "
-                                                << kFirstCloudWait
-                                                << " s: is that the topic of the clouds?");
-}
-
-void ProjectedMapNode::onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud) {
-  silence_timer_.stop();
-  queue_.add(cloud);
-  resolveTransforms();
+  if (clouds_->counts().received > 0) return;
+  ROS_WARN_STREAM(clouds_->problem().value_or("")
+                  << ", in " << kFirstCloudWait << " s: is that the topic of the clouds?");
 }
 
 // What was seen before ~reset does not come back by itself.
 void ProjectedMapNode::forgetAll() {
-  queue_.clear("came before ~reset");
+  clouds_->clear("came before ~reset");
   if (autosave_) autosave_->remove();
 }
 
 // Those that are ready; a cloud that still waits for its transform would fill again what is cleared now.
 void ProjectedMapNode::insertAll(MapModel& map) {
-  for (std::size_t left = queue_.counts().waiting; left > 0 && insertOne(map);) --left;
-  queue_.clear("came before ~clear_bbx");
-}
-
-void ProjectedMapNode::resolveTransforms() {
-  if (queue_.resolveTransforms()) postInsertion();
+  for (std::size_t left = clouds_->counts().waiting; left > 0 && insertOne(map);) --left;
+  clouds_->clear("came before ~clear_bbx");
 }
 
 void ProjectedMapNode::postInsertion() {
@@ -259,20 +245,13 @@ void ProjectedMapNode::insertNext(MapModel& map) {
 
 // Whether there was one.
 bool ProjectedMapNode::insertOne(MapModel& map) {
-  const auto ready = queue_.pop();
-  if (!ready) return false;
-  try {
-    insert(map, *ready);
-    queue_.countInserted();
-  } catch (...) {  // whatever is wrong with a cloud ends with it
-    queue_.countDropped("cannot be used", "a cloud that cannot be used: " + currentErrorText());
-  }
-  return true;
+  return clouds_->useNext([&](const Clouds::Arrival& cloud) { insert(map, cloud); });
 }
 
-void ProjectedMapNode::insert(MapModel& map, const CloudQueue::Ready& ready) {
-  const MapModel::Inserted inserted = map.insert(finitePoints(*ready.cloud), ready.frames);
-  map_publisher_->countCloud(ready.cloud->header.stamp, ros::Time::now());
+void ProjectedMapNode::insert(MapModel& map, const Clouds::Arrival& cloud) {
+  const auto frames = framesOf(cloud.poses, map.options().cloud.filter_ground);
+  const MapModel::Inserted inserted = map.insert(finitePoints(*cloud.message), frames);
+  map_publisher_->countCloud(cloud.message->header.stamp, ros::Time::now());
   diagnostics_->recordInsertion(inserted);
   static LogThrottle no_ground(10.0), full(10.0), outside(10.0);
   if (inserted.ground_missed)

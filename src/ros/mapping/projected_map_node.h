@@ -12,7 +12,7 @@
 //   subscribes  tf                           frame_id -> the clouds' frames, -> base_frame_id
 //
 // The names are octomap_server's. Clouds are inserted, one after the other, as soon as tf knows
-// the pose of their sensor (cloud_queue.h); a cloud that cannot be used is dropped with its reason,
+// the pose of their sensor (input.h); a cloud that cannot be used is dropped with its reason,
 // without effect on others. Where ROS time jumps back, as when a bag loops, tf and the waiting
 // clouds are cleared; the map stays. A node that was ended and starts again under the same roscore
 // begins with the map it had (map_autosave.h).
@@ -28,11 +28,9 @@
 #include <memory>
 #include <string>
 
-#include "ros/guard/incoming/bounded_subscription.h"
 #include "ros/guard/node_files.h"
-#include "ros/guard/node_time.h"
 #include "ros/input/frame_lookup.h"
-#include "ros/mapping/cloud_queue.h"
+#include "ros/input/input.h"
 #include "ros/mapping/map_autosave.h"
 #include "ros/mapping/mapping_diagnostics.h"
 #include "ros/mapping/mapping_services.h"
@@ -60,12 +58,12 @@ class ProjectedMapNode {
   ~ProjectedMapNode();
 
  private:
+  using Clouds = Input<sensor_msgs::PointCloud2>;
+
   mapping::ProjectedMapOptions withFile(mapping::ProjectedMapOptions options) const;
   void use(const mapping::ProjectedMapOptions& options);
   void startPublishing(const mapping::ProjectedMapOptions& options);
   void warnOfSilence() const;
-  void onCloud(const sensor_msgs::PointCloud2::ConstPtr& cloud);
-  void resolveTransforms();
   void postInsertion();
   void postPublishing();
   void startAutosave(double period);
@@ -76,7 +74,7 @@ class ProjectedMapNode {
   void insertAll(mapping::MapModel& map);
   void insertNext(mapping::MapModel& map);
   bool insertOne(mapping::MapModel& map);
-  void insert(mapping::MapModel& map, const CloudQueue::Ready& ready);
+  void insert(mapping::MapModel& map, const Clouds::Arrival& cloud);
   void publish(mapping::MapModel& map);
   void publishHeartbeat(mapping::MapModel& map);
   void save(const mapping::MapModel& map, MapAutosave::When when);
@@ -88,7 +86,7 @@ class ProjectedMapNode {
   std::string filename_;  // the option that was used last, and the file that it named
   std::string loaded_;
   FrameTransforms transforms_;
-  CloudQueue queue_;
+  std::unique_ptr<Clouds> clouds_;
   std::unique_ptr<MapAutosave> autosave_;  // null: none
   std::unique_ptr<MappingThread> thread_;
   ros::Time decayed_until_;  // of the map's thread
@@ -101,13 +99,10 @@ class ProjectedMapNode {
   std::unique_ptr<MappingServices> services_;
   std::unique_ptr<MappingDiagnostics> diagnostics_;
   std::unique_ptr<Reconfigurable<ProjectedMapConfig, mapping::ProjectedMapOptions>> reconfigurable_;
-  std::shared_ptr<void> on_jump_back_;
-  ros::Subscriber cloud_subscriber_;
-  ros::SteadyTimer cloud_timer_;
   ros::SteadyTimer publish_timer_;
   ros::SteadyTimer heartbeat_timer_;
   ros::SteadyTimer autosave_timer_;
-  ros::SteadyTimer silence_timer_;  // until the first cloud
+  ros::SteadyTimer silence_timer_;
 };
 
 }  // namespace grid_path_planner::nodes

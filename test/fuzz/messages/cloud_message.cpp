@@ -43,7 +43,7 @@ std::vector<std::string> seedsOfClouds() {
           bytesOf(transform) + cloudOf({})};
 }
 
-// As CloudQueue makes it of what tf knows.
+// As projected_map makes it of what tf knows.
 Eigen::Isometry3d isometryOf(const geometry_msgs::Transform& t) {
   const Eigen::Quaterniond rotation(t.rotation.w, t.rotation.x, t.rotation.y, t.rotation.z);
   return Eigen::Translation3d(t.translation.x, t.translation.y, t.translation.z) *
