@@ -296,8 +296,7 @@ Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
     CostmapPair maps = asked_for;
     makeRoom(maps);
     if (!threshold_fit_) threshold_fit_ = std::make_unique<grid::ThresholdFit>();
-    const std::string& misfit =
-        threshold_fit_->problem(map_, options_.costmap.thresholds, token);
+    const std::string& misfit = threshold_fit_->problem(map_, options_.costmap.thresholds, token);
     Lowered* lowered = loweredFor(*maps.full_resolution, request);
     if ((lowered || footprint_) && bytes() > memoryLimit() / 2) searches_->releaseOptionalMemory();
     if (lowered) maps = loweredCosts(*lowered, token);
