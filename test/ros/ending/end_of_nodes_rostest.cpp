@@ -1,8 +1,11 @@
-// Every node ends within 2 s of SIGINT and of SIGTERM, also while it works.
+// Every node ends after SIGINT and SIGTERM, also while it works, which it stops. How long it takes at most is printed: only a
+// quiet machine says something by it.
 #include <nav_msgs/GetPlan.h>
 #include <ros/network.h>
 #include <xmlrpcpp/XmlRpcClient.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <set>
 #include <thread>
 
@@ -44,13 +47,15 @@ TEST(EndOfNodes, EveryNodeOfThePackageIsTested) {
 }
 
 TEST(EndOfNodes, BySignal) {
+  double longest = 0.0;
   for (const Node& node : everyNode())
     for (const int number : {SIGINT, SIGTERM}) {
       Process process(node.name, node.arguments);
       ASSERT_TRUE(process.says(" runs")) << node.name;
-      process.end(number);
+      longest = std::max(longest, process.end(number));
       EXPECT_EQ(process.exitCode(), 0) << node.name;
     }
+  std::printf("the longest end took %.2f s\n", longest);
 }
 
 // As rosnode kill and the master do, which may give a reason. By the code, one with the reason "" was not heard.
@@ -70,7 +75,7 @@ TEST(EndOfNodes, ByARequestForShutdown) {
     request[0] = "/end_of_nodes";
     request[1] = reason;
     ASSERT_TRUE(client.execute("shutdown", request, response));
-    EXPECT_TRUE(process.waitForExit(Process::patience()));
+    EXPECT_TRUE(process.waitForExit());
     EXPECT_EQ(process.exitCode(), 0);
     EXPECT_TRUE(process.hasSaid("ends: " + (reason.empty() ? "asked by the master" : reason)));
   }
@@ -89,7 +94,7 @@ TEST(EndOfNodes, WhileTheMasterAnswersNobody) {
   master.signal(SIGSTOP);
   for (const auto& process : processes) process->signal(SIGTERM);
   for (const auto& process : processes) {
-    EXPECT_TRUE(process->waitForExit(Process::patience()));
+    EXPECT_TRUE(process->waitForExit());
     EXPECT_EQ(process->exitCode(), 0);
     EXPECT_TRUE(process->hasSaid("does not answer"));
   }
@@ -120,7 +125,7 @@ TEST(EndOfNodes, ASecondOneWhoseFileCannotBeReadDoesNotEndTheFirst) {
 
 class EndOfPlanner : public test::PlannerTest {};
 
-// A plan without a time limit, and clients that wait for its answer.
+// A plan without a time limit, and clients that wait for its answer: it is given up, not finished.
 TEST_F(EndOfPlanner, BySignalWhileItPlans) {
   constexpr int kSide = 3000;
   grid::OccupancyGrid map(grid::GridGeometry(kSide, kSide, 1.0));
@@ -128,6 +133,10 @@ TEST_F(EndOfPlanner, BySignalWhileItPlans) {
   for (const int number : {SIGINT, SIGTERM}) {
     startPlanner({"_planner:=dijkstra", "_timeout:=0"});
     publishMap(map);
+    double begin = planner_->processorSeconds();
+    makePlan(poseAt(0.5, 0.5), poseAt(kSide - 0.5, kSide - 0.5));
+    const double whole_plan = planner_->processorSeconds() - begin;
+    begin += whole_plan;
     std::vector<std::thread> clients;
     for (int i = 0; i < 4; ++i)
       clients.emplace_back([] {
@@ -138,8 +147,10 @@ TEST_F(EndOfPlanner, BySignalWhileItPlans) {
         }
       });
     goals_.publish(poseAt(kSide - 0.5, kSide - 0.5));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    ASSERT_TRUE(waitFor([&] { return planner_->processorSeconds() > begin + 0.1 * whole_plan; }));
+    begin = planner_->processorSeconds();
     planner_->end(number);
+    EXPECT_LT(planner_->processorSeconds() - begin, 0.5 * whole_plan);
     EXPECT_EQ(planner_->exitCode(), 0);
     for (std::thread& client : clients) client.join();
     ASSERT_TRUE(waitFor([this] { return maps_.getNumSubscribers() == 0; }));

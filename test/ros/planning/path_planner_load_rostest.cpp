@@ -30,9 +30,6 @@ OccupancyGrid divided(OccupancyGrid map) {
   return map;
 }
 
-using Clock = std::chrono::steady_clock;
-using Seconds = std::chrono::duration<double>;
-
 class LoadTest : public test::PlannerTest {
  protected:
   ~LoadTest() override {
@@ -47,13 +44,7 @@ class LoadTest : public test::PlannerTest {
         nav_msgs::GetPlan call;
         call.request.start = poseAt(0.5, 0.5);
         call.request.goal = poseAt(side - 0.5, side - 0.5);
-        auto asked = Clock::now();
-        while (!done_ && ros::service::call("/path_planner/make_plan", call)) {
-          const auto answered = Clock::now();
-          slowest_ = std::max(slowest_.load(), Seconds(answered - asked).count());
-          asked = answered;
-          ++answers_;
-        }
+        while (!done_ && ros::service::call("/path_planner/make_plan", call)) ++answers_;
       });
   }
 
@@ -67,16 +58,16 @@ class LoadTest : public test::PlannerTest {
 
   std::atomic<bool> done_{false};
   std::atomic<int> answers_{0};
-  std::atomic<double> slowest_{0.0};  // s
 
  private:
   std::vector<std::thread> clients_;
 };
 
 // Four clients kept the thread that follows the map busy, and each new map went to the end of its
-// queue: no planning map in 15 s, and the vehicle drove on towards the wall.
+// queue: no planning map in 15 s, and the vehicle drove on towards the wall. The questions of clients have a thread of
+// their own, so that few of them are answered meanwhile: the vehicle waits for none.
 TEST_F(LoadTest, ABlockedPathIsReplannedWhateverIsAsked) {
-  constexpr int kSide = 1500;
+  constexpr int kSide = 1500, kMostAnswers = 4;
   startPlanner({"_planner:=dijkstra", "_timeout:=60", "_replan_period:=0"});
   placeVehicle(0.5, kSide / 2 + 0.5);
   const OccupancyGrid open = field(kSide), wall = divided(open);
@@ -86,15 +77,14 @@ TEST_F(LoadTest, ABlockedPathIsReplannedWhateverIsAsked) {
   startClients(4, kSide);
   ASSERT_TRUE(waitFor([this] { return answers_ > 0; }));
   const std::size_t paths = paths_.count(), maps = planning_maps_.count();
-  const auto begin = Clock::now();
+  const int before = answers_;
   ASSERT_TRUE(waitFor([&] {
     maps_.publish(occupancyToMessage(wall, "map", ros::Time::now()));
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     return paths_.count() > paths;
   })) << "not replanned; planning maps: "
       << planning_maps_.count() - maps << ", answers " << answers_;
-  const double took = Seconds(Clock::now() - begin).count();
-  EXPECT_LT(took, 1.0 + 4.0 * slowest_) << "an answer took " << slowest_ << " s";
+  EXPECT_LE(answers_ - before, kMostAnswers);
   EXPECT_TRUE(passes(paths_.all().back(), kSide / 2 + 0.5, kSide - 0.5, 2.0));
 }
 
@@ -112,7 +102,8 @@ TEST_F(LoadTest, AComparisonOfTooManyQuestionsIsRefused) {
   EXPECT_EQ(call.response.results.size(), 1000u);
 }
 
-// Both threads of the services compared for clients that were gone, minutes long.
+// Both threads of the services compared for clients that were gone, minutes long. Each client goes while its comparison,
+// of minutes, is computed.
 TEST_F(LoadTest, AComparisonEndsWithItsClient) {
   constexpr int kSide = 1000;
   startPlanner();
@@ -124,7 +115,9 @@ TEST_F(LoadTest, AComparisonEndsWithItsClient) {
       ComparePlans call = comparison(1000, kSide);
       client.call(call);
     });
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // time to be asked
+    const double begin = planner_->processorSeconds();
+    EXPECT_TRUE(waitFor([&] { return planner_->processorSeconds() > begin + 0.5; }))
+        << "it compares";
     client.shutdown();
     asks.join();
   }
@@ -137,6 +130,11 @@ TEST_F(LoadTest, AComparisonEndsWithItsClient) {
   EXPECT_TRUE(waitFor([&] { return answered.load(); })) << "it compares for nobody";
   if (!answered) planner_->signal(SIGKILL);
   asks.join();
+  EXPECT_TRUE(waitFor([&] {
+    const double begin = planner_->processorSeconds();
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    return planner_->processorSeconds() < begin + 0.2;
+  })) << "it goes on comparing";
 }
 
 }  // namespace

@@ -9,10 +9,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -21,7 +22,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -62,7 +62,7 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   bool running() {
-    if (!exited_ && ::waitpid(pid_, &status_, WNOHANG) == pid_) exited_ = true;
+    if (!exited_ && ::wait4(pid_, &status_, WNOHANG, &used_) == pid_) exited_ = true;
     return !exited_;
   }
   void signal(int number) {
@@ -71,6 +71,17 @@ class Process {
     ::kill(pid_, number);
   }
   pid_t pid() const { return pid_; }
+  // Seconds that it has had a processor, of one that has ended all of them.
+  double processorSeconds() {
+    clockid_t clock{};
+    timespec time{};
+    if (running() && ::clock_getcpuclockid(pid_, &clock) == 0 && ::clock_gettime(clock, &time) == 0)
+      return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    const auto seconds = [](const timeval& part) {
+      return static_cast<double>(part.tv_sec) + 1e-6 * static_cast<double>(part.tv_usec);
+    };
+    return seconds(used_.ru_utime) + seconds(used_.ru_stime);
+  }
   // What it held at most, in bytes; 0 where it has ended.
   std::size_t peakMemory() const {
     std::ifstream file("/proc/" + std::to_string(pid_) + "/status");
@@ -93,32 +104,21 @@ class Process {
   }
   // By now: for a condition that itself is waited for.
   bool hasSaid(const std::string& text) const { return output().find(text) != std::string::npos; }
-  // Sends the signal and waits for the end: a law of every test is that nodes end in time.
-  void end(int number) {
-    if (!running()) return;
+  // Sends the signal and waits for the end: a law of every test is that nodes end. Returns the seconds that it took.
+  double end(int number) {
+    if (!running()) return 0.0;
+    const auto begin = std::chrono::steady_clock::now();
     signal(number);
-    const bool ended = waitForExit(patience());
-    EXPECT_TRUE(ended || node_.empty())
-        << "it did not end within " << patience().count() << " s of signal " << number;
-    if (ended) return;
+    const bool ended = waitForExit();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    EXPECT_TRUE(ended || node_.empty()) << "it did not end after signal " << number;
+    if (ended) return taken.count();
     signal(SIGKILL);
     waitForExit();
-  }
-  // How long a node may take to end: 2 s on a machine of its own, in proportion on one that has other
-  // work, 30 s with a sanitizer.
-  static std::chrono::duration<double> patience() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return std::chrono::seconds(30);
-#else
-    double load = 0.0;
-    ::getloadavg(&load, 1);
-    return std::chrono::seconds(2) * std::max(1.0, load / std::thread::hardware_concurrency());
-#endif
+    return taken.count();
   }
   // Of a process that exited by itself; -1 of one that was killed.
-  int exitCode() const {
-    return exited_ && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
-  }
+  int exitCode() const { return exited_ && WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }
 
  private:
   // In the child. No memory is asked for: another thread may have held the allocator's lock as it was forked, and the child
@@ -152,6 +152,7 @@ class Process {
   std::string output_;  // a file
   pid_t pid_;
   int status_ = 0;
+  rusage used_{};  // once it has exited
   bool exited_ = false;
   std::string node_;  // its full name; empty: another program
   std::optional<KilledNode> killed_;
