@@ -29,7 +29,7 @@ function(gpp_add_option_files)
   add_executable(${target} ${folder}/option_files/main.cpp ${folder}/avoidance/pilot_options.cpp
     ${folder}/following/follower_options.cpp ${folder}/localization/filter_options.cpp
     ${folder}/layers/map_layers_options.cpp ${folder}/mapping/projection_options.cpp
-    ${folder}/ros/planning/path_planner_options.cpp
+    ${folder}/ros/input/input_rules.cpp ${folder}/ros/planning/path_planner_options.cpp
     ${folder}/vision/marker_pose_options.cpp)
   set_target_properties(${target} PROPERTIES OUTPUT_NAME option_files
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})  # not beside the nodes: it is a tool of the build

@@ -1,7 +1,7 @@
 // Writes the files that repeat the options of the nodes (option_files.h).
 //
 //   option_files cfg FOLDER    <Node>.cfg of every node into FOLDER
-//   option_files write ROOT    config/<node>.yaml and the tables in README.md and doc/*.md of ROOT
+//   option_files write ROOT    config/<node>.yaml and the tables in README.md and doc/*.md of ROOT, with that of the inputs
 //   option_files check ROOT    returns 1 and names those that are out of date
 //
 // A file that is right already is left alone, so that what is built from it is not built anew.
@@ -18,6 +18,7 @@
 #include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/teleop_joy_options.h"
+#include "ros/input/input_rules.h"
 #include "ros/localization/marker_localizer_options.h"
 #include "ros/localization/vehicle_localizer_options.h"
 #include "ros/planning/map_publisher_options.h"
@@ -34,6 +35,7 @@ using layers::MapLayersOptions;
 using mapping::ProjectedMapOptions;
 using nodes::AdapterOptions;
 using nodes::GoToPoseOptions;
+using nodes::inputTableText;
 using nodes::LocalPlannerOptions;
 using nodes::MapPublisherOptions;
 using nodes::MarkerLocalizerOptions;
@@ -86,7 +88,8 @@ Files committedFiles(const fs::path& root) {
   for (const NodeOptions& node : nodes)
     files[root / "config" / (node.node + ".yaml")] = yamlOf(node);
   for (const std::string& page : pages(root))
-    files[page] = withTables(readWholeFile(page, kLargestFile), nodes);
+    files[page] = withText(withTables(readWholeFile(page, kLargestFile), nodes), "<!-- inputs -->",
+                           inputTableText());
   return files;
 }
 

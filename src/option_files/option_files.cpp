@@ -17,6 +17,7 @@ using base::OptionType;
 namespace {
 
 constexpr std::size_t kColumns = 120;
+const std::string kEnd = "<!-- end -->";
 
 // A number with a decimal point, so that YAML and Python take it for one that need not be whole.
 std::string withPoint(std::string number) {
@@ -218,7 +219,7 @@ std::string tableOf(const NodeOptions& node) {
 }
 
 std::string withTables(const std::string& page, const std::vector<NodeOptions>& nodes) {
-  const std::string opening = "<!-- parameters: ", closing = " -->", end = "<!-- end -->";
+  const std::string opening = "<!-- parameters: ", closing = " -->";
   std::string made;
   std::size_t done = 0;
   while (true) {
@@ -226,9 +227,9 @@ std::string withTables(const std::string& page, const std::vector<NodeOptions>& 
     if (at == std::string::npos) return made + page.substr(done);
     const std::size_t name_at = at + opening.size();
     const std::size_t name_end = page.find(closing, name_at);
-    const std::size_t end_at = page.find(end, name_at);
+    const std::size_t end_at = page.find(kEnd, name_at);
     if (name_end == std::string::npos || end_at == std::string::npos || name_end > end_at)
-      throw InputError("the table behind '" + page.substr(at, 40) + "' has no " + end);
+      throw InputError("the table behind '" + page.substr(at, 40) + "' has no " + kEnd);
     const std::string name = page.substr(name_at, name_end - name_at);
     const auto node = std::find_if(nodes.begin(), nodes.end(),
                                    [&name](const NodeOptions& each) { return each.node == name; });
@@ -236,6 +237,15 @@ std::string withTables(const std::string& page, const std::vector<NodeOptions>& 
     made += page.substr(done, name_end + closing.size() - done) + '\n' + tableOf(*node) + '\n';
     done = end_at;
   }
+}
+
+std::string withText(const std::string& page, const std::string& opening, const std::string& text) {
+  const std::size_t at = page.find(opening);
+  if (at == std::string::npos) return page;
+  const std::size_t end = page.find(kEnd, at);
+  if (end == std::string::npos)
+    throw InputError("what stands behind '" + opening + "' has no " + kEnd);
+  return page.substr(0, at + opening.size()) + '\n' + text + '\n' + page.substr(end);
 }
 
 }  // namespace grid_path_planner::option_files

@@ -37,4 +37,7 @@ std::string tableOf(const NodeOptions& node);
 // InputError for a node that is not in `nodes` and for a missing end.
 std::string withTables(const std::string& page, const std::vector<NodeOptions>& nodes);
 
+// `page` with `text` between the line `opening`, where it has one, and <!-- end -->. Throws InputError for a missing end.
+std::string withText(const std::string& page, const std::string& opening, const std::string& text);
+
 }  // namespace grid_path_planner::option_files

@@ -154,5 +154,12 @@ TEST(OptionFiles, AMarkWithoutAnEndOrANodeIsRefused) {
   EXPECT_EQ(refusal("<!-- parameters: printer -->\n<!-- end -->"), "there is no node 'printer'");
 }
 
+TEST(OptionFiles, ATextStandsBehindItsLine) {
+  EXPECT_EQ(withText("a\n<!-- inputs -->\nold\n<!-- end -->\nz\n", "<!-- inputs -->", "new"),
+            "a\n<!-- inputs -->\nnew\n<!-- end -->\nz\n");
+  EXPECT_EQ(withText("a\n", "<!-- inputs -->", "new"), "a\n");
+  EXPECT_NE(errorText([] { withText("<!-- inputs -->", "<!-- inputs -->", ""); }), "");
+}
+
 }  // namespace
 }  // namespace grid_path_planner::option_files
