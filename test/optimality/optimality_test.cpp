@@ -8,39 +8,32 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/planners/planner_factory.h"
-#include "support/random_map.h"
-#include "support/reference_search.h"
+#include "optimality/questions.h"
 
 namespace grid_path_planner::planning {
 
-using base::choiceName;
-using base::Status;
 using base::StopToken;
 using costmap::Connectivity;
 using costmap::CostGrid;
-using costmap::costOfSteps;
 using costmap::DiagonalCost;
-using costmap::ExactCost;
 using costmap::MotionModel;
 using grid::Cell;
 using grid::CellRect;
-using grid::Grid;
 using grid::GridGeometry;
 using planners::Heuristic;
-using planners::makePlanner;
-using planners::Planner;
 using planners::plannerNames;
-using planners::PlannerTraits;
 using planners::SearchOptions;
-using planners::SearchResult;
 using planners::TieBreak;
+using test::between;
+using test::passableCell;
+using test::Question;
+using test::questionOn;
+using test::Subject;
 
 namespace {
 
@@ -48,16 +41,8 @@ constexpr int kMaps = 10000;
 constexpr int kBlocks = 40;
 constexpr int kMapsInBlock = kMaps / kBlocks;
 constexpr std::size_t kMostBytes =
-    6'000'000;  // of a planner: tables of all pairs only on small maps
-
-struct Subject {
-  std::string planner;
-  SearchOptions options;
-
-  std::string name(const PlannerTraits& traits) const {
-    return traits.heuristic ? planner + ' ' + choiceName(options.heuristic) : planner;
-  }
-};
+    6'000'000;                   // of a planner: tables of all pairs only on small maps
+constexpr int kMostWeight = 60;  // of what changes
 
 // Every planner with its defaults, and those that are guided with one more heuristic and tie-break:
 // which, goes round with the maps.
@@ -70,14 +55,11 @@ std::vector<Subject> subjectsFor(int map) {
   turned.tie_break = tie_breaks[turn / heuristics.size() % tie_breaks.size()].second;
   std::vector<Subject> subjects;
   for (const std::string& planner : plannerNames()) {
+    if (!test::isJudged(planner)) continue;
     subjects.push_back({planner, {}});
-    if (makePlanner(planner)->traits().heuristic) subjects.push_back({planner, turned});
+    if (planners::traitsOf(planner).heuristic) subjects.push_back({planner, turned});
   }
   return subjects;
-}
-
-int between(std::mt19937& random, int low, int high) {
-  return std::uniform_int_distribution<int>(low, high)(random);
 }
 
 // 36 of 100 maps have both sides above 40, more than a quarter of those up to 200.
@@ -107,78 +89,7 @@ CostGrid mapFor(int map, std::mt19937& random) {
                                     : test::randomCosts(random, geometry, motionFor(map));
 }
 
-Cell passableCell(std::mt19937& random, const CostGrid& map) {
-  Cell cell = test::randomCell(random, map.geometry());
-  for (int tries = 0; tries < 50 && !map.passable(cell); ++tries)
-    cell = test::randomCell(random, map.geometry());
-  return cell;
-}
-
-// A map, what is asked of it, and the answers.
-struct Question {
-  std::shared_ptr<const CostGrid> map;
-  Cell start;
-  std::vector<Cell> goals;
-  std::vector<std::optional<ExactCost>> least;
-
-  const std::optional<ExactCost>& leastTo(Cell goal) const {
-    return least[map->geometry().index(goal).value()];
-  }
-};
-
-Question questionOn(std::shared_ptr<const CostGrid> map, Cell start, std::vector<Cell> goals) {
-  Question question{std::move(map), start, std::move(goals), {}};
-  question.least = question.map->passable(start)
-                       ? test::referenceCosts(*question.map, start)
-                       : std::vector<std::optional<ExactCost>>(question.map->geometry().size());
-  return question;
-}
-
-// The next revision of the map: a rectangle of cells has other weights.
-std::shared_ptr<const CostGrid> changed(const CostGrid& map, std::mt19937& random, CellRect& rect) {
-  const Cell middle = test::randomCell(random, map.geometry());
-  rect = CellRect{middle.column - 3, middle.row - 3, between(random, 1, 9), between(random, 1, 9)}
-             .intersection(map.geometry().rect());
-  if (rect.width <= 0 || rect.height <= 0) rect = {middle.column, middle.row, 1, 1};
-  const CostGrid::Weight values[] = {CostGrid::kBlocked, map.minWeight(),
-                                     static_cast<CostGrid::Weight>(between(random, 1, 60))};
-  const bool one_value = between(random, 0, 1) == 0;
-  const int value = between(random, 0, 2);
-  Grid<CostGrid::Weight> weights = map.weights();
-  for (int row = rect.row; row < rect.row + rect.height; ++row)
-    for (int column = rect.column; column < rect.column + rect.width; ++column)
-      weights[Cell{column, row}] = values[one_value ? value : between(random, 0, 2)];
-  auto next = std::make_shared<CostGrid>(std::move(weights), map.classes(), map.motion());
-  next->setRevision(map.revision() + 1);
-  return next;
-}
-
-class Optimality : public ::testing::TestWithParam<int> {
- protected:
-  // Compares each answer where optimality is claimed.
-  void ask(Planner& planner, const std::string& name, const Question& question) {
-    if (!planner.optimalFor(*question.map)) return;
-    for (const Cell goal : question.goals) {
-      const SearchResult result = planner.search({question.start, {goal}, false}, StopToken());
-      if (result.status == Status::INVALID_REQUEST) continue;  // not a map for this planner
-      SCOPED_TRACE(name + ": " + result.message);
-      const std::optional<ExactCost>& least = question.leastTo(goal);
-      if (!question.map->passable(question.start) || !question.map->passable(goal)) {
-        EXPECT_NE(result.status, Status::FOUND);
-        continue;
-      }
-      ASSERT_EQ(result.status, least ? Status::FOUND : Status::UNREACHABLE);
-      if (!least) continue;
-      EXPECT_EQ(result.cost, *least)
-          << result.cost.straight << " + " << result.cost.diagonal << " sqrt 2 instead of "
-          << least->straight << " + " << least->diagonal << " sqrt 2";
-      EXPECT_EQ(result.cost, costOfSteps(*question.map, result.cells));
-      ++compared_[name];
-    }
-  }
-
-  std::map<std::string, int> compared_;
-};
+using Optimality = test::Comparison;
 
 TEST_P(Optimality, CostsAreThoseOfBoostGraph) {
   for (int i = GetParam() * kMapsInBlock; i < (GetParam() + 1) * kMapsInBlock; ++i) {
@@ -189,13 +100,13 @@ TEST_P(Optimality, CostsAreThoseOfBoostGraph) {
     const std::vector<Cell> goals = {passableCell(random, *map), passableCell(random, *map)};
     std::vector<Question> questions = {questionOn(map, start, goals)};
     CellRect rect;
-    if (i % 2 == 0) questions.push_back(questionOn(changed(*map, random, rect), start, goals));
+    if (i % 2 == 0)
+      questions.push_back(questionOn(test::changed(*map, random, rect, kMostWeight), start, goals));
 
     for (const Subject& subject : subjectsFor(i)) {
-      const auto planner = makePlanner(subject.planner, subject.options);
-      if (!planner->traits().optimal || planner->traits().any_angle) continue;
+      const auto planner = subject.make();
       if (planner->bytesFor(map->geometry()) > kMostBytes) continue;
-      const std::string name = subject.name(planner->traits());
+      const std::string name = subject.name();
       planner->prepare(map, StopToken());
       planner->finishBackgroundWork(StopToken());
       ask(*planner, name, questions.front());
@@ -207,11 +118,10 @@ TEST_P(Optimality, CostsAreThoseOfBoostGraph) {
     if (HasFailure()) return;
   }
   // A planner that refused every map would have proven nothing.
-  for (const std::string& name : plannerNames()) {
-    const auto planner = makePlanner(name);
-    if (!planner->traits().optimal || planner->traits().any_angle) continue;
-    const Subject subject{name, {}};
-    EXPECT_GT(compared_[subject.name(planner->traits())], 20) << name;
+  for (const std::string& planner : plannerNames()) {
+    if (!test::isJudged(planner)) continue;
+    const Subject subject{planner, {}};
+    EXPECT_GT(compared_[subject.name()], 20) << planner;
   }
 }
 

@@ -119,6 +119,10 @@ class Planner {
   const costmap::CostGrid& map() const { return *map_; }
   // The same, for a planner inside this one.
   const std::shared_ptr<const costmap::CostGrid>& sharedMap() const { return map_; }
+  // What `inner` answers, which searches this planner's map in its place. Precondition: it promises as much, so
+  // where optimalFor() holds for this planner, it does for `inner`.
+  SearchResult answerOf(Planner& inner, const SearchRequest& request,
+                        const base::StopToken& stop) const;
   // The map that update() replaces, before all of its changes. Precondition: called by doUpdate().
   const costmap::CostGrid& previousMap() const { return *map_before_; }
 

@@ -15,14 +15,12 @@ SearchKey roundedDown(long double key) {
   return key <= 0.0L ? 0 : static_cast<SearchKey>(key);
 }
 
-// The one that is computed: itself, or what stands in for a table.
-Heuristic closedForm(Heuristic heuristic, const MotionModel& motion) {
-  if (!prepared(heuristic)) return heuristic;
+}  // namespace
+
+Heuristic closedFormFor(const MotionModel& motion) {
   if (motion.connectivity == Connectivity::FOUR) return Heuristic::MANHATTAN;
   return motion.diagonal_cost == DiagonalCost::UNIT ? Heuristic::CHEBYSHEV : Heuristic::OCTILE;
 }
-
-}  // namespace
 
 bool prepared(Heuristic heuristic) {
   return heuristic == Heuristic::BLOCKS || heuristic == Heuristic::LANDMARK ||
@@ -57,7 +55,7 @@ bool optimalWith(const AStarOptions& options, const CostGrid& map) {
 Estimate::Estimate(const AStarOptions& options, const CostGrid& map, Cell start, Cell goal,
                    const KeyScale& scale)
     : scale_(scale),
-      heuristic_(closedForm(options.heuristic, map.motion())),
+      heuristic_(prepared(options.heuristic) ? closedFormFor(map.motion()) : options.heuristic),
       start_(start),
       goal_(goal),
       weight_(map.minWeight()),

@@ -18,6 +18,9 @@ namespace grid_path_planner::planners {
 // Whether it comes from a table that is computed for a map (planners/precomputed_table.h).
 bool prepared(Heuristic heuristic);
 
+// The largest of those that are computed without a table which is admissible for `motion`.
+Heuristic closedFormFor(const costmap::MotionModel& motion);
+
 // Whether the heuristic, times a scale of at most the minimum weight, never exceeds the cost.
 bool admissible(Heuristic heuristic, const costmap::MotionModel& motion);
 

@@ -13,7 +13,7 @@
 namespace grid_path_planner::planners {
 
 using base::Status, base::Stopped, base::StopToken;
-using costmap::Connectivity, costmap::CostGrid, costmap::DiagonalCost, costmap::MotionModel;
+using costmap::CostGrid, costmap::MotionModel;
 using grid::Cell, grid::CellRect, grid::GridGeometry;
 
 namespace {
@@ -80,14 +80,9 @@ WeightedJumpPoint::WeightedJumpPoint(const AStarOptions& options)
 
 // The given options, or the defaults with the best heuristic of the motion model.
 AStarOptions WeightedJumpPoint::optionsOfAStar(const CostGrid& map) const {
-  const MotionModel& motion = map.motion();
   AStarOptions options = options_;
   if (a_star_asked_for_ || landmarks_asked_for_) return options;
-  if (motion.connectivity == Connectivity::FOUR)
-    options.heuristic = Heuristic::MANHATTAN;
-  else if (motion.diagonal_cost == DiagonalCost::UNIT)
-    options.heuristic = Heuristic::CHEBYSHEV;
-  if (!map.uniform()) options.heuristic = Heuristic::BLOCKS;
+  options.heuristic = map.uniform() ? closedFormFor(map.motion()) : Heuristic::BLOCKS;
   return options;
 }
 
@@ -342,7 +337,7 @@ SearchResult WeightedJumpPoint::searchAnew(const SearchRequest& request, const S
       return *std::move(result);
   }
   if (!substitute_) prepareSubstitute(stop);
-  SearchResult result = substitute_->search(request, stop);
+  SearchResult result = answerOf(*substitute_, request, stop);
   // JumpPoint's pay for none: where it answers, tiles are made in idle time.
   const std::size_t cells = map().geometry().size();
   if (!substitute_jumps_ && cells <= kMostCells) tiles_.pay(result.statistics.expanded, cells);

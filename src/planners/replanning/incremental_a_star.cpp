@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "planners/astar/heuristic.h"
 #include "planners/core/bucket_queue.h"
 #include "planners/replanning/kept_search_tree.h"
 
@@ -39,7 +40,7 @@ void IncrementalAStar::doUpdate(const std::vector<CellRect>& changed, const Stop
 }
 
 SearchResult IncrementalAStar::doSearch(const SearchRequest& request, const StopToken& stop) {
-  if (a_star_) return a_star_->search(request, stop);
+  if (a_star_) return answerOf(*a_star_, request, stop);
   SearchResult result;
   try {
     result.status = planByTree(request, result, stop);
@@ -47,7 +48,7 @@ SearchResult IncrementalAStar::doSearch(const SearchRequest& request, const Stop
     result.status = stopped.status();
   } catch (const TooExpensive&) {
     switchToAStar(stop);
-    return a_star_->search(request, stop);
+    return answerOf(*a_star_, request, stop);
   }
   result.statistics.search_bytes = KeptSearchTree::bytesFor(map().geometry()) +
                                    tree_->searchBytes() +
@@ -56,7 +57,9 @@ SearchResult IncrementalAStar::doSearch(const SearchRequest& request, const Stop
 }
 
 void IncrementalAStar::switchToAStar(const StopToken& stop) {
-  auto a_star = std::make_unique<AStar>();
+  AStarOptions options;
+  options.heuristic = closedFormFor(map().motion());
+  auto a_star = std::make_unique<AStar>(options);
   a_star->prepare(sharedMap(), stop);
   a_star_ = std::move(a_star);
   tree_.reset();
