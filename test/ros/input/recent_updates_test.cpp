@@ -7,7 +7,7 @@
 namespace grid_path_planner::nodes {
 namespace {
 
-const ros::Time kNow(100.0);
+const ros::Time kTaken(100.0);
 
 RecentUpdates::Update updateAt(double stamp, int x, std::int8_t value, std::size_t cells = 1) {
   auto update = boost::make_shared<map_msgs::OccupancyGridUpdate>();
@@ -35,14 +35,14 @@ std::vector<int> columnsOf(const std::vector<RecentUpdates::Update>& updates) {
 
 TEST(RecentUpdates, AreThoseOfThePublisherThatAreNewerThanTheMap) {
   RecentUpdates recent;
-  recent.keep("/a", updateAt(1.0, 1, 100), kNow);
-  recent.keep("/a", updateAt(2.0, 2, 100), kNow);
-  recent.keep("/b", updateAt(3.0, 3, 100), kNow);
-  recent.keep("/a", updateAt(3.0, 4, 100), kNow);
-  recent.keep("/a", updateAt(100.1, 5, 100), kNow);  // /clock is late
+  recent.keep("/a", updateAt(1.0, 1, 100), kTaken);
+  recent.keep("/a", updateAt(2.0, 2, 100), kTaken);
+  recent.keep("/b", updateAt(3.0, 3, 100), kTaken);
+  recent.keep("/a", updateAt(3.0, 4, 100), kTaken);
+  recent.keep("/a", updateAt(100.1, 5, 100), kTaken);  // /clock is late
   EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(1.0), ros::Time(3.0))),
             std::vector<int>({2, 4}));
-  recent.forgetBefore("/a", ros::Time(1.0), kNow);
+  recent.forgetBefore("/a", ros::Time(1.0), kTaken);
   EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(1.0))), std::vector<int>({2, 4, 5}))
       << "for the next map";
   EXPECT_TRUE(recent.since("/b", ros::Time(0.0)).empty()) << "of another publisher's map";
@@ -53,19 +53,19 @@ TEST(RecentUpdates, AreThoseOfThePublisherThatAreNewerThanTheMap) {
 TEST(RecentUpdates, OneFromFarAheadIsNotKept) {
   RecentUpdates recent;
   for (const double stamp : {110.1, 7200.0, 4294967295.0})
-    recent.keep("/a", updateAt(stamp, 1, 0), kNow);
+    recent.keep("/a", updateAt(stamp, 1, 0), kTaken);
   EXPECT_TRUE(recent.since("/a", ros::Time(50.0)).empty());
-  for (int i = 0; i < 1001; ++i) recent.keep("/a", updateAt(60.0, i, 0), kNow);
+  for (int i = 0; i < 1001; ++i) recent.keep("/a", updateAt(60.0, i, 0), kTaken);
   EXPECT_TRUE(recent.complete(ros::Time(60.0)));
 }
 
 // As where its machine's clock is set back: those of before would be laid upon maps that were sent after them.
 TEST(RecentUpdates, AreForgottenWhereTheClockOfTheirPublisherWentBack) {
   RecentUpdates recent;
-  recent.keep("/b", updateAt(105.0, 9, 0), kNow);
-  recent.keep("/a", updateAt(104.0, 1, 0), kNow);
-  recent.keep("/a", updateAt(105.0, 2, 0), kNow);
-  recent.keep("/a", updateAt(101.0, 3, 100), kNow);
+  recent.keep("/b", updateAt(105.0, 9, 0), kTaken);
+  recent.keep("/a", updateAt(104.0, 1, 0), kTaken);
+  recent.keep("/a", updateAt(105.0, 2, 0), kTaken);
+  recent.keep("/a", updateAt(101.0, 3, 100), kTaken);
   EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(100.5))), std::vector<int>({3}));
   EXPECT_EQ(columnsOf(recent.since("/b", ros::Time(100.5))), std::vector<int>({9}));
   EXPECT_FALSE(recent.complete(ros::Time(100.5)));
@@ -73,12 +73,12 @@ TEST(RecentUpdates, AreForgottenWhereTheClockOfTheirPublisherWentBack) {
 
 TEST(RecentUpdates, AreCompleteUntilTheOldestAreForgotten) {
   RecentUpdates recent;
-  for (int i = 0; i < 1000; ++i) recent.keep("/a", updateAt(1.0 + 0.01 * i, i, 0), kNow);
+  for (int i = 0; i < 1000; ++i) recent.keep("/a", updateAt(1.0 + 0.01 * i, i, 0), kTaken);
   EXPECT_TRUE(recent.complete(ros::Time(0.5)));
-  recent.keep("/a", updateAt(20.0, 0, 0), kNow);
+  recent.keep("/a", updateAt(20.0, 0, 0), kTaken);
   EXPECT_FALSE(recent.complete(ros::Time(0.5)));
   EXPECT_TRUE(recent.complete(ros::Time(1.0))) << "of its own time is in it";
-  recent.keep("/a", updateAt(21.0, 0, 0, 15'999'500), kNow);
+  recent.keep("/a", updateAt(21.0, 0, 0, 15'999'500), kTaken);
   EXPECT_FALSE(recent.complete(ros::Time(5.0))) << "16 MB";
   EXPECT_EQ(recent.since("/a", ros::Time(19.0)).size(), 2U);
 }
@@ -86,14 +86,14 @@ TEST(RecentUpdates, AreCompleteUntilTheOldestAreForgotten) {
 // A map without a stamp would be overwritten with all that had come before it.
 TEST(RecentUpdates, AreNoneForAMapOfNoTime) {
   RecentUpdates recent;
-  recent.keep("/a", updateAt(1.0, 1, 100), kNow);
+  recent.keep("/a", updateAt(1.0, 1, 100), kTaken);
   EXPECT_TRUE(recent.since("/a", ros::Time()).empty());
 }
 
 TEST(RecentUpdates, AreNotCompleteForAMapThatIsOlderThanOneThatWasTaken) {
   RecentUpdates recent;
-  recent.keep("/a", updateAt(2.0, 1, 100), kNow);
-  recent.forgetBefore("/a", ros::Time(3.0), kNow);
+  recent.keep("/a", updateAt(2.0, 1, 100), kTaken);
+  recent.forgetBefore("/a", ros::Time(3.0), kTaken);
   EXPECT_FALSE(recent.complete(ros::Time(1.0)));
   EXPECT_TRUE(recent.complete(ros::Time(3.0)));
 }
@@ -101,8 +101,8 @@ TEST(RecentUpdates, AreNotCompleteForAMapThatIsOlderThanOneThatWasTaken) {
 // It would be older than all that is kept of its publisher, as where that clock was set back.
 TEST(RecentUpdates, OneOfNoTimeIsNotKeptAndForgetsNoOther) {
   RecentUpdates recent;
-  recent.keep("/a", updateAt(1.0, 1, 100), kNow);
-  recent.keep("/a", updateAt(0.0, 2, 100), kNow);
+  recent.keep("/a", updateAt(1.0, 1, 100), kTaken);
+  recent.keep("/a", updateAt(0.0, 2, 100), kTaken);
   EXPECT_EQ(columnsOf(recent.since("/a", ros::Time(0.5))), std::vector<int>({1}));
   EXPECT_TRUE(recent.complete(ros::Time(0.5)));
 }
@@ -110,20 +110,20 @@ TEST(RecentUpdates, OneOfNoTimeIsNotKeptAndForgetsNoOther) {
 // From a map of a time that has not come, every later one of any publisher counted as lacking updates.
 TEST(RecentUpdates, AreCompleteAfterAMapFromTheFuture) {
   RecentUpdates recent;
-  recent.forgetBefore("/x", ros::TIME_MAX, kNow);
-  EXPECT_TRUE(recent.complete(kNow));
+  recent.forgetBefore("/x", ros::TIME_MAX, kTaken);
+  EXPECT_TRUE(recent.complete(kTaken));
 }
 
 TEST(RecentUpdates, WithoutValuesAndFramesThatNoMapHas) {
   RecentUpdates recent;
-  recent.keep("/a", updateAt(1.0, 1, 101), kNow);
+  recent.keep("/a", updateAt(1.0, 1, 101), kTaken);
   auto lies = boost::make_shared<map_msgs::OccupancyGridUpdate>(*updateAt(1.0, 1, 0));
   lies->width = lies->height = 4'000'000'000U;
-  recent.keep("/a", lies, kNow);
+  recent.keep("/a", lies, kTaken);
   for (const std::string& frame : {std::string("a'b"), std::string(1'000'000, 'a')}) {
     auto of_no_frame = boost::make_shared<map_msgs::OccupancyGridUpdate>(*updateAt(1.0, 1, 0));
     of_no_frame->header.frame_id = frame;
-    recent.keep("/a", of_no_frame, kNow);
+    recent.keep("/a", of_no_frame, kTaken);
   }
   EXPECT_TRUE(recent.since("/a", ros::Time(0.5)).empty());
 }

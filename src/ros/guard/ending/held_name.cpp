@@ -9,7 +9,7 @@
 namespace grid_path_planner::nodes {
 namespace {
 
-constexpr std::chrono::seconds kPatience(10);
+constexpr std::chrono::seconds kTimeout(10);
 
 struct HeldNames {
   std::mutex mutex;
@@ -26,7 +26,7 @@ HeldNames& held() {
 
 HeldName::HeldName(std::string name) : name_(std::move(name)) {
   std::unique_lock<std::mutex> lock(held().mutex);
-  held().released.wait_for(lock, kPatience, [this] { return held().names.count(name_) == 0; });
+  held().released.wait_for(lock, kTimeout, [this] { return held().names.count(name_) == 0; });
   held().names.insert(name_);
 }
 

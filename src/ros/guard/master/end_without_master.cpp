@@ -15,7 +15,7 @@ namespace grid_path_planner::nodes {
 namespace {
 
 constexpr double kPeriod = 0.1;            // s
-constexpr double kPatience = 1.5;          // s, after which the master is asked
+constexpr double kAskedAfter = 1.5;        // s, after which the master is asked
 constexpr double kPatienceOfMaster = 0.2;  // s
 constexpr int kInterruptedEach = 20;       // periods: most answers come within that time
 
@@ -73,7 +73,7 @@ bool EndWithoutMaster::isAsked() const noexcept {
 void EndWithoutMaster::run() {
   while (!isAsked())
     if (isOverWithin(kPeriod)) return;
-  if (isOverWithin(kPatience)) return;
+  if (isOverWithin(kAskedAfter)) return;
   handleInterruption();
   for (int i = 0; unfinished > 0 || masterAnswers(); ++i) {
     if (unfinished == 0 && i % kInterruptedEach == 0) ::pthread_kill(main_thread_, kInterruption);

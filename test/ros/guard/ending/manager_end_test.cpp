@@ -21,7 +21,7 @@
 namespace grid_path_planner::nodes {
 namespace {
 
-constexpr int kDeadline = 20000;  // ms
+constexpr int kLongestEnd = 20000;  // ms
 
 // As _exit(0), but that the thread sanitizer does not look for threads that nobody has joined: the watch's may have ended.
 void endAtOnce() {
@@ -37,7 +37,7 @@ class Manager {
     if (::pipe(pipe_) != 0) throw std::runtime_error("no pipe");
     pid_ = ::fork();
     if (pid_ != 0) return;
-    ::alarm(kDeadline / 1000);
+    ::alarm(kLongestEnd / 1000);
     main([this](char letter) { (void)!::write(pipe_[1], &letter, 1); });
     endAtOnce();
   }
@@ -53,7 +53,7 @@ class Manager {
   char heard() const {
     pollfd readable{pipe_[0], POLLIN, 0};
     char letter = 0;
-    if (::poll(&readable, 1, kDeadline) == 1) (void)!::read(pipe_[0], &letter, 1);
+    if (::poll(&readable, 1, kLongestEnd) == 1) (void)!::read(pipe_[0], &letter, 1);
     return letter;
   }
   // The signal that ended it; 0: it exited.

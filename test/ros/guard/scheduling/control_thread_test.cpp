@@ -31,6 +31,20 @@ TEST(ControlThread, TicksWhateverATickThrows) {
   EXPECT_TRUE(comesTrue([&] { return ticks > 5; }));
 }
 
+// A command that a tick failed to replace would stay in force.
+TEST(ControlThread, EachTickThatFailsSendsAZeroInItsPlace) {
+  std::atomic<int> ticks{0}, zeros{0};
+  ControlThread thread(
+      [&] {
+        if (++ticks % 2 == 0) throw std::runtime_error("a tick that fails");
+      },
+      [&] { ++zeros; });
+  thread.start(1000.0, 0);
+  ASSERT_TRUE(comesTrue([&] { return ticks >= 10; }));
+  thread.stop();
+  EXPECT_EQ(zeros, ticks / 2);
+}
+
 TEST(ControlThread, WorkIsNotKeptWaitingAndATickFollowsIt) {
   std::atomic<int> ticks{0};
   ControlThread thread([&] { ++ticks; });
