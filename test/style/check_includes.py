@@ -44,6 +44,7 @@ LENT = {
     "following/go_to/navigator_options.h": {"ros_driving"},
     "path/zigzags.h": {"planning"},
     "grid/float_decimal.h": {"ros_messages"},
+    "grid/foreign_values.h": {"planning", "ros_input", "ros_messages"},
     "grid/fewer_rects.h": {"ros_messages"},
     "grid/map_differences.h": {"planning", "ros_input", "ros_planning"},
     "grid/formats/rectangle_map_file.h": {"planners"},
