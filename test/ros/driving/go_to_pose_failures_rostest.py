@@ -10,7 +10,7 @@ import rosnode
 import rospy
 import rostest
 
-from go_to_session import PACKAGE, GoToTest, HeldPlanner, pose, room
+from go_to_session import PACKAGE, GoToTest, HeldPlanner, pose
 
 
 class GoToPoseFailures(GoToTest):
@@ -18,10 +18,10 @@ class GoToPoseFailures(GoToTest):
         self.drive_to(2, 1.5)
         self.send(pose(8, 1.5))
         self.wait_for(lambda: self.moves() and self.at()[0] > 2.5)
-        self.maps.publish(room(door=False))
+        self.publish_room(door=False)
         self.wait_for(lambda: any(status.step == "wait" for status in self.heard()))
         self.assertLess(self.at()[0], 5.0)
-        self.maps.publish(room(door=True))
+        self.publish_room(door=True)
         self.ends("SUCCEEDED")
         self.wait_for(lambda: self.is_at(8, 1.5))
         self.drive_to(2, 1.5)

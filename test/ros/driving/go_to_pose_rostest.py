@@ -15,7 +15,7 @@ from dynamic_reconfigure.srv import Reconfigure
 from move_base_msgs.msg import MoveBaseAction, MoveBaseActionResult, MoveBaseGoal
 from std_msgs.msg import Empty
 
-from go_to_session import DEADLINE, PACKAGE, GoToTest, executable, pose, room
+from go_to_session import DEADLINE, PACKAGE, GoToTest, executable, pose
 from message_classes import message_class
 
 ATTEMPTS = 5
@@ -148,7 +148,7 @@ class GoToPose(GoToTest):
         self.drive_to(3, 3)
 
     def test_a_goal_out_of_reach_is_aborted_with_the_planners_sentence_and_recovery_is_told(self):
-        self.maps.publish(room(door=False))
+        self.publish_room(door=False)
         self.send(pose(8, 1.5))
         text = self.ends("ABORTED")
         self.assertTrue(text.startswith("UNREACHABLE: "), text)
@@ -158,18 +158,18 @@ class GoToPose(GoToTest):
 
     def test_the_step_clear_scan_asks_for_it_and_plans_on_the_map_without(self):
         """What dust marked in the door is in nobody's way once it is cleared."""
-        asked = rospy.Subscriber("clear_scan", Empty, lambda _: self.maps.publish(room(door=True)))
+        asked = rospy.Subscriber("clear_scan", Empty, lambda _: self.publish_room(door=True))
         self.addCleanup(asked.unregister)
         self.addCleanup(set_recovery_steps, "wait, back_off, turn_and_look")
         set_recovery_steps("clear_scan")
-        self.maps.publish(room(door=False))
+        self.publish_room(door=False)
         self.wait_for(lambda: asked.get_num_connections() > 0)
         self.send(pose(8, 1.5))
         self.ends("SUCCEEDED")
         self.assertIn("clear_scan", [status.step for status in self.heard()])
 
     def test_a_cancel_during_recovery_ends_it(self):
-        self.maps.publish(room(door=False))
+        self.publish_room(door=False)
         self.send(pose(8, 1.5))
         self.wait_for(lambda: any(status.step == "turn_and_look" for status in self.heard()))
         self.client.cancel_goal()
