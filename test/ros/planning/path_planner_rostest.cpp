@@ -258,18 +258,16 @@ TEST_F(PathPlannerTest, ABadMapIsRefusedAndTheOldOneStays) {
   publishMap(kRoom);
   const nav_msgs::OccupancyGrid good =
       occupancyToMessage(AsciiMap({"#"}).map, "map", ros::Time::now());
-  std::vector<nav_msgs::OccupancyGrid> bad(8, good);
-  bad[0].info.width = bad[0].info.height = 0;
+  std::vector<nav_msgs::OccupancyGrid> bad(6, good);
+  bad[0].info.origin.orientation.x = bad[0].info.origin.orientation.w = std::sqrt(0.5);
   bad[1].data.push_back(0);
   bad[2].info.resolution = std::numeric_limits<float>::quiet_NaN();
   bad[3].data[0] = 101;
-  bad[4].info.origin.orientation.w = 0.0;
-  bad[5].info.origin.orientation.x = bad[5].info.origin.orientation.w = std::sqrt(0.5);
-  bad[6].info.resolution = -0.05F;
+  bad[4].info.resolution = -0.05F;
   // One that lies where the good one does is compared with it.
-  bad[7] = occupancyToMessage(AsciiMap(kRoom).map, "map", ros::Time::now());
-  bad[7].data[16] = bad[7].data[2] = 100;
-  bad[7].data[9] = -2;
+  bad[5] = occupancyToMessage(AsciiMap(kRoom).map, "map", ros::Time::now());
+  bad[5].data[16] = bad[5].data[2] = 100;
+  bad[5].data[9] = -2;
   for (const auto& message : bad) {
     const std::size_t seen = log_.count();
     maps_.publish(message);
