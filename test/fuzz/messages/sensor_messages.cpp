@@ -111,7 +111,7 @@ class HearingVehicle {
         messages_(
             [place](const std::string&, const std::string& source) {
               if (source == "nowhere") throw nodes::TransformError("tf does not know it");
-              return place;
+              return nodes::isometryOf(place);
             },
             options),
         localizer_(options.localizer) {}
