@@ -31,6 +31,8 @@ void append(const std::vector<CellRect>& rects, std::vector<CellRect>& to) {
 
 // What raises the weights of a map.
 struct Inflations {
+  Inflations(const CostmapOptions& options, double resolution)
+      : Inflations(options, keptDistances(options), resolution) {}
   Inflations(const CostmapOptions& options, const KeptDistances& kept, double resolution)
       : occupied(Occupancy::OCCUPIED, profileOf(options, kept.occupied, true), resolution),
         unknown(Occupancy::UNKNOWN, profileOf(options, kept.unknown, false), resolution),
@@ -150,11 +152,7 @@ void writeOccupiedWeights(const Grid<Occupancy>& classes, const CostmapOptions& 
 
 }  // namespace
 
-CostmapBuilder::CostmapBuilder(const CostmapOptions& options)
-    : CostmapBuilder(options, costmap::keptDistances(options)) {}
-
-CostmapBuilder::CostmapBuilder(const CostmapOptions& options, const KeptDistances& kept)
-    : options_(options), kept_(kept) {
+CostmapBuilder::CostmapBuilder(const CostmapOptions& options) : options_(options) {
   checkCostmapOptions(options);
 }
 
@@ -170,7 +168,7 @@ std::size_t CostmapBuilder::bytesFor(const GridGeometry& geometry, int kernel,
 void CostmapBuilder::setMap(std::shared_ptr<const OccupancyGrid> map) {
   assert(map);
   map_ = std::move(map);
-  inflations_ = std::make_shared<const Inflations>(options_, kept_, map_->geometry().resolution());
+  inflations_ = std::make_shared<const Inflations>(options_, map_->geometry().resolution());
   full_.reset(nullptr);
   downsampled_.reset(nullptr);
   downsampled_dirty_.clear();
@@ -216,7 +214,7 @@ void CostmapBuilder::build(const StopToken& stop) {
   writeWeights(classes, options_, all, weights, stop);
   inflations_->apply(classes, all, weights, stop);
   auto full = std::make_unique<CostGrid>(std::move(weights), std::move(classes), options_.motion);
-  full->setKeptDistances(kept_);
+  full->setKeptDistances(keptDistances(options_));
   full->setRevision(full_.nextSeries());
   if (options_.kernel > 1) {
     auto blocks = buildDownsampled(*full, stop);
@@ -236,7 +234,7 @@ std::unique_ptr<CostGrid> CostmapBuilder::buildDownsampled(const CostGrid& full,
   applyKernel(full, options_, full.geometry().rect(), weights, classes, stop);
   auto blocks = std::make_unique<CostGrid>(std::move(weights), std::move(classes), options_.motion,
                                            options_.kernel, full.geometry());
-  blocks->setKeptDistances(kept_);
+  blocks->setKeptDistances(full.keptDistances());
   blocks->setRevision(downsampled_.nextSeries());
   return blocks;
 }

@@ -15,7 +15,7 @@ namespace grid_path_planner::planning {
 
 using base::checkOptionLimits, base::InputError, base::sameOptions, base::Status, base::StopPoll,
     base::StopSource, base::StopToken;
-using costmap::CostGrid, costmap::CostmapBuilder, costmap::CostmapOptions, costmap::KeptDistances;
+using costmap::CostGrid, costmap::CostmapBuilder, costmap::CostmapOptions;
 using grid::Cell, grid::CellRect, grid::disjointRects, grid::Grid, grid::GridGeometry,
     grid::Occupancy, grid::OccupancyGrid;
 using path::Footprint;
@@ -60,9 +60,9 @@ OccupancyGrid occupancyOf(const Grid<Occupancy>& classes, StopPoll& poll) {
 
 // The same weights, blocked also where a disc of the options' radius meets an obstacle.
 std::shared_ptr<const CostGrid> inflated(const CostGrid& costs, const CostmapOptions& options,
-                                         const KeptDistances& kept, const StopToken& stop) {
+                                         const StopToken& stop) {
   StopPoll poll(stop, 64);
-  CostmapBuilder builder(options, kept);
+  CostmapBuilder builder(options);
   builder.setMap(std::make_shared<const OccupancyGrid>(occupancyOf(costs.classes(), poll)));
   const std::shared_ptr<const CostGrid> discs = builder.fullResolution(stop);
   Grid<CostGrid::Weight> weights = costs.weights();
@@ -190,9 +190,8 @@ Plan CostPlanner::planOn(const CostGrid& costs, const PoseRequest& request,
                          const PlannerOptions& options, const StopToken& stop) {
   if (!options_.use_footprint) return planOnCosts(costs, *search_, request, options, stop);
   const Footprint footprint("the costmap's footprint", footprint_);
-  const auto inflate = [&costs](const CostmapOptions& wider, const KeptDistances& kept,
-                                const StopToken& until) {
-    return inflated(costs, wider, kept, until);
+  const auto inflate = [&costs](const CostmapOptions& wider, const StopToken& until) {
+    return inflated(costs, wider, until);
   };
   const std::size_t taken =
       bytesFor(costs.geometry()) + search_->bytes() + bytesOfInflated(costs.geometry());

@@ -72,20 +72,4 @@ bool EndSegments::leavesStart(const Eigen::Vector2d& from, const Eigen::Vector2d
   return keeps(from, to, own) && keeps(from + share * line, to);
 }
 
-KeptDistances EndSegments::loweredTo(const Eigen::Vector2d& start,
-                                     const Eigen::Vector2d& goal) const {
-  KeptDistances lowered = kept_;
-  if (kept_.unknown <= 0.0 && kept_.outside <= 0.0) return lowered;
-  for (const Eigen::Vector2d& end : {start, goal}) {
-    const auto cell = costs_.geometry().cellAt(end);
-    if (!cell) continue;
-    for (const Eigen::Vector2d& point : {end, costs_.geometry().centre(*cell)}) {
-      const KeptDistances own = at(point);
-      lowered.unknown = std::min(lowered.unknown, own.unknown);
-      lowered.outside = std::min(lowered.outside, own.outside);
-    }
-  }
-  return lowered;
-}
-
 }  // namespace grid_path_planner::planning

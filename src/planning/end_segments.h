@@ -5,8 +5,8 @@
 //   EndSegments ends(costs);                             // the costmap at full resolution
 //   use(ends.leavesStart(pose, centre));
 //
-// A start may be nearer than the distances that are kept: then the line is never nearer than the
-// start, and keeps them beyond one cell diagonal.
+// A start may be nearer than the distances that are kept, from occupied cells, unknown cells and the map's
+// border alike: then the line is never nearer than the start, and keeps them beyond one cell diagonal.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,10 +19,7 @@ class EndSegments {
  public:
   // `costs` outlives this.
   explicit EndSegments(const costmap::CostGrid& costs)
-      : EndSegments(costs, costs.keptDistances()) {}
-  // As if the costmap kept `kept`.
-  EndSegments(const costmap::CostGrid& costs, const costmap::KeptDistances& kept)
-      : costs_(costs), kept_(kept) {}
+      : costs_(costs), kept_(costs.keptDistances()) {}
 
   // Whether segments are judged by distances at all; else line_of_sight.h judges them.
   bool measured() const { return costs_.segmentRule() == costmap::SegmentRule::CENTRE_LATTICE; }
@@ -39,11 +36,6 @@ class EndSegments {
   }
   bool leavesStart(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                    const costmap::KeptDistances& own) const;
-
-  // The kept distances, those to unknown cells and to the map's border no more than what both ends
-  // of a path have, at their positions and the centres of their cells. Ends outside the map count
-  // for nothing.
-  costmap::KeptDistances loweredTo(const Eigen::Vector2d& start, const Eigen::Vector2d& goal) const;
 
  private:
   bool keeps(const Eigen::Vector2d& from, const Eigen::Vector2d& to,

@@ -9,17 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/planners/reachable_cells.h"
 #include "grid_path_planner/planning/nearest_cell.h"
-#include "planning/end_segments.h"
 #include "planning/message_text.h"
 #include "planning/widest_path.h"
 
 namespace grid_path_planner::planning {
 
 using base::Status, base::StopPoll, base::StopToken;
-using costmap::CostGrid, costmap::CostmapBuilder, costmap::CostmapOptions, costmap::KeptDistances;
+using costmap::CostGrid, costmap::CostmapOptions;
 using grid::Cell, grid::CellRect, grid::GridGeometry, grid::Occupancy;
 using planners::reachableFrom;
 
@@ -115,7 +113,7 @@ class Explainer {
  private:
   void explainGap(Cell start, Cell goal, Explanation& explanation) const {
     const CostmapOptions& costmap = options_.costmap;
-    const auto widest = widestPath(costs_, costmap, costs_.keptDistances(), start, goal, stop_);
+    const auto widest = widestPath(costs_, costmap, start, goal, stop_);
     if (!widest) {
       explainClosed(start, goal, explanation);
     } else if (widest->clearance >= costmap.radius) {
@@ -145,8 +143,7 @@ class Explainer {
     through.radius_to_unknown = 0.0;
     through.unknown_is_passable = true;
     explanation.only_unknown =
-        !options_.costmap.unknown_is_passable &&
-        widestPath(costs_, through, costmap::keptDistances(through), start, goal, stop_);
+        !options_.costmap.unknown_is_passable && widestPath(costs_, through, start, goal, stop_);
     explanation.text = explanation.only_unknown
                            ? "only unknown cells lead there, and unknown_is_passable is false"
                            : "obstacles lie all around, for a vehicle of any size";
@@ -173,33 +170,24 @@ class Explainer {
   const StopToken& stop_;
 };
 
-// What was searched: it keeps no more from unknown cells and from the border than the ends have.
-std::shared_ptr<const CostGrid> searchedCosts(PathPlanner& planner, const PoseRequest& request,
-                                              const StopToken& stop) {
-  const auto costs = planner.fullResolutionCosts(stop);
-  const KeptDistances kept =
-      EndSegments(*costs).loweredTo(placeOf(request.start), placeOf(request.goal));
-  if (kept == costs->keptDistances()) return costs;
-  CostmapBuilder lowered(planner.searchedOptions().costmap, kept);
-  lowered.setMap(planner.map());
-  return lowered.fullResolution(stop);
-}
-
 }  // namespace
 
 Explanation explainFailure(PathPlanner& planner, const PoseRequest& request, Status status,
                            const StopToken& stop) {
   if (status != Status::UNREACHABLE && status != Status::GOAL_OCCUPIED) return {};
   if (!planner.hasMap() || planner.map()->geometry().size() > kMostExplained) return {};
-  const auto costs = searchedCosts(planner, request, stop);
-  const auto start = costs->geometry().cellAt(placeOf(request.start));
-  const auto goal = costs->geometry().cellAt(placeOf(request.goal));
-  if (!start || !goal || !costs->passable(*start)) return {};
+  const auto costs = planner.fullResolutionCosts(stop);
+  const GridGeometry& geometry = costs->geometry();
+  const auto near = nearestCell(geometry, placeOf(request.start), 2.0 * geometry.resolution(),
+                                [&](Cell cell) { return costs->passable(cell); });
+  const auto goal = geometry.cellAt(placeOf(request.goal));
+  if (!near || !goal) return {};
+  const Cell start = near->cell;
   // What hinders a footprint, and no disc of its inscribed radius, the plan's message says.
   if (!planner.options().footprint.empty() &&
-      reachableFrom(*costs, *start, stop)[costs->geometry().index(*goal).value()] != 0)
+      reachableFrom(*costs, start, stop)[geometry.index(*goal).value()] != 0)
     return {};
-  return Explainer(*costs, planner.searchedOptions(), request, stop).explain(*start, *goal, status);
+  return Explainer(*costs, planner.searchedOptions(), request, stop).explain(start, *goal, status);
 }
 
 }  // namespace grid_path_planner::planning

@@ -12,53 +12,55 @@
 namespace grid_path_planner::planning {
 
 using base::sameOptions, base::Stopped, base::StopReason, base::StopToken;
-using costmap::CostmapOptions, costmap::KeptDistances;
+using costmap::checkCostmapOptions, costmap::CostmapBuilder, costmap::CostmapOptions;
 using grid::CellRect, grid::DoubleBuffered, grid::OccupancyGrid;
 
 namespace {
 
 constexpr auto kNewerThanAll = std::numeric_limits<std::uint64_t>::max();  // of revisions
 
+MapSeries::Newest begun(std::shared_ptr<const OccupancyGrid> first) {
+  MapSeries::Newest newest;
+  newest.map = std::move(first);
+  newest.changes.restart(DoubleBuffered<OccupancyGrid>::nextSeries());
+  return newest;
+}
+
 }  // namespace
 
 MapSeries::MapSeries(std::shared_ptr<const OccupancyGrid> first, std::string frame_id)
-    : geometry_(first->geometry()), frame_id_(std::move(frame_id)) {
-  newest_.changes.restart(DoubleBuffered<OccupancyGrid>::nextSeries());
-  newest_.map = std::move(first);
-}
-
-MapSeries::Newest MapSeries::newest() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return newest_;
-}
+    : geometry_(first->geometry()),
+      frame_id_(std::move(frame_id)),
+      newest_(begun(std::move(first))) {}
 
 void MapSeries::update(std::shared_ptr<const OccupancyGrid> map, std::vector<CellRect> changed) {
   assert(map->geometry() == geometry_);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  Newest next{std::move(map), newest_.changes};
-  next.changes.add(std::move(changed));
-  std::swap(newest_, next);  // all or nothing where memory is short
+  newest_.change([&](Newest& next) {
+    next.map = std::move(map);
+    next.changes.add(std::move(changed));
+  });
 }
 
-std::shared_ptr<SharedCostmap> MapSeries::costmap(const CostmapOptions& options,
-                                                  const KeptDistances& kept) {
+std::shared_ptr<SharedCostmap> MapSeries::costmap(const CostmapOptions& options) {
   const std::lock_guard<std::mutex> lock(mutex_);
   costmaps_.erase(std::remove_if(costmaps_.begin(), costmaps_.end(),
                                  [](const auto& each) { return each.expired(); }),
                   costmaps_.end());
   for (const std::weak_ptr<SharedCostmap>& each : costmaps_) {
     std::shared_ptr<SharedCostmap> known = each.lock();
-    if (known && known->keptDistances() == kept && sameOptions(known->options(), options))
-      return known;
+    if (known && sameOptions(known->options(), options)) return known;
   }
-  auto made = std::make_shared<SharedCostmap>(shared_from_this(), options, kept);
+  auto made = std::make_shared<SharedCostmap>(shared_from_this(), options);
   costmaps_.push_back(made);
   return made;
 }
 
-SharedCostmap::SharedCostmap(std::shared_ptr<const MapSeries> series, const CostmapOptions& options,
-                             const KeptDistances& kept)
-    : series_(std::move(series)), options_(options), kept_(kept), builder_(options, kept) {}
+SharedCostmap::SharedCostmap(std::shared_ptr<const MapSeries> series, const CostmapOptions& options)
+    : series_(std::move(series)), options_(options), making_maps_([this] {
+        return Making{CostmapBuilder(options_), nullptr, 0};
+      }) {
+  checkCostmapOptions(options);
+}
 
 // To make the costmaps, which one thread does at a time.
 class SharedCostmap::Turn {
@@ -93,22 +95,15 @@ class SharedCostmap::Turn {
 };
 
 SharedCostmap::Result SharedCostmap::newest(const StopToken& stop, std::uint64_t at_least) {
-  const std::uint64_t wanted = std::min(at_least, series_->newest().changes.newest());
+  const std::uint64_t wanted = std::min(at_least, series_->newest()->changes.newest());
   const Turn turn(*this, wanted, stop);
   if (turn.made()) return *turn.made();
-  try {
-    return make(stop);
-  } catch (const Stopped&) {
-    throw;  // the next one goes on
-  } catch (...) {
-    revision_.reset();  // the costmaps may be half made
-    throw;
-  }
+  return making_maps_.change([&](Making& making) { return make(making, stop); });
 }
 
 void SharedCostmap::makeReadyForChanges(const StopToken& stop) {
   const Turn turn(*this, kNewerThanAll, stop);
-  builder_.makeReadyForChanges(stop);
+  if (Making* making = making_maps_.get()) making->builder.makeReadyForChanges(stop);
 }
 
 // Precondition: mutex_ is held.
@@ -116,31 +111,31 @@ std::optional<SharedCostmap::Result> SharedCostmap::madeSince(std::uint64_t revi
   return made_ && made_revision_ >= revision ? made_ : std::nullopt;
 }
 
-SharedCostmap::Result SharedCostmap::make(const StopToken& stop) {
-  takeMap();
-  auto downsampled = builder_.downsampled(stop);
-  Result result{map_,
-                {builder_.fullResolution(stop), std::move(downsampled),
-                 builder_.fullResolutionChanges(), builder_.downsampledChanges()}};
+SharedCostmap::Result SharedCostmap::make(Making& making, const StopToken& stop) {
+  takeMap(making);
+  CostmapBuilder& builder = making.builder;
+  auto downsampled = builder.downsampled(stop);
+  Result result{making.map,
+                {builder.fullResolution(stop), std::move(downsampled),
+                 builder.fullResolutionChanges(), builder.downsampledChanges()}};
   const std::lock_guard<std::mutex> lock(mutex_);
   made_ = result;
-  made_revision_ = *revision_;
+  made_revision_ = making.revision;
   return result;
 }
 
-void SharedCostmap::takeMap() {
-  MapSeries::Newest newest = series_->newest();
-  const std::uint64_t revision = newest.changes.newest();
-  if (revision_ == revision) return;
-  const auto known = std::exchange(revision_, std::nullopt);  // until the builder has the map
-  map_ = std::move(newest.map);
-  if (!known)
-    builder_.setMap(map_);
-  else if (const auto changed = newest.changes.since(*known))
-    builder_.updateMap(map_, *changed);
+void SharedCostmap::takeMap(Making& making) const {
+  const std::shared_ptr<const MapSeries::Newest> newest = series_->newest();
+  const std::uint64_t revision = newest->changes.newest();
+  if (making.map && making.revision == revision) return;
+  if (!making.map)
+    making.builder.setMap(newest->map);
+  else if (const auto changed = newest->changes.since(making.revision))
+    making.builder.updateMap(newest->map, *changed);
   else
-    builder_.updateMap(map_, {series_->geometry().rect()});
-  revision_ = revision;
+    making.builder.updateMap(newest->map, {series_->geometry().rect()});
+  making.map = newest->map;
+  making.revision = revision;
 }
 
 void MapStore::setMap(std::shared_ptr<const OccupancyGrid> map, const std::string& frame_id) {
@@ -156,7 +151,7 @@ void MapStore::updateMap(std::shared_ptr<const OccupancyGrid> map,
 
 std::uint64_t MapStore::revision() const {
   const std::shared_ptr<MapSeries> newest = series();
-  return newest ? newest->newest().changes.newest() : 0;
+  return newest ? newest->newest()->changes.newest() : 0;
 }
 
 std::shared_ptr<MapSeries> MapStore::series() const {

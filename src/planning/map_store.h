@@ -22,6 +22,8 @@
 #include <string>
 #include <vector>
 
+#include "base/committed.h"
+#include "base/rebuildable.h"
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/grid/double_buffered.h"
@@ -34,27 +36,27 @@ class SharedCostmap;
 // Maps of one geometry in one frame, each of which follows from the one before by a change.
 class MapSeries : public std::enable_shared_from_this<MapSeries> {
  public:
+  // A map and what changed up to it.
   struct Newest {
     std::shared_ptr<const grid::OccupancyGrid> map;
-    grid::ChangeLog<> changes;  // up to it
+    grid::ChangeLog<> changes;
   };
 
   MapSeries(std::shared_ptr<const grid::OccupancyGrid> first, std::string frame_id);
 
   const grid::GridGeometry& geometry() const { return geometry_; }
   const std::string& frameId() const { return frame_id_; }
-  Newest newest() const;
+  std::shared_ptr<const Newest> newest() const { return newest_.get(); }
   void update(std::shared_ptr<const grid::OccupancyGrid> map, std::vector<grid::CellRect> changed);
 
   // That of these options, which lives as long as somebody holds it.
-  std::shared_ptr<SharedCostmap> costmap(const costmap::CostmapOptions& options,
-                                         const costmap::KeptDistances& kept);
+  std::shared_ptr<SharedCostmap> costmap(const costmap::CostmapOptions& options);
 
  private:
   const grid::GridGeometry geometry_;
   const std::string frame_id_;
-  mutable std::mutex mutex_;  // of what follows, held for no longer than it takes to read and write
-  Newest newest_;
+  base::Committed<Newest> newest_;
+  std::mutex mutex_;  // of what follows
   std::vector<std::weak_ptr<SharedCostmap>> costmaps_;
 };
 
@@ -66,11 +68,9 @@ class SharedCostmap {
     CostmapPair costs;
   };
 
-  SharedCostmap(std::shared_ptr<const MapSeries> series, const costmap::CostmapOptions& options,
-                const costmap::KeptDistances& kept);
+  SharedCostmap(std::shared_ptr<const MapSeries> series, const costmap::CostmapOptions& options);
 
   const costmap::CostmapOptions& options() const { return options_; }
-  const costmap::KeptDistances& keptDistances() const { return kept_; }
 
   // Of the newest map, or of an earlier one of at least this revision where these are there. Throws
   // Stopped, also while another thread makes them.
@@ -82,17 +82,21 @@ class SharedCostmap {
 
  private:
   class Turn;
+  // The costmaps of a map, of which it is known which it is.
+  struct Making {
+    costmap::CostmapBuilder builder;
+    std::shared_ptr<const grid::OccupancyGrid> map;
+    std::uint64_t revision = 0;  // of the map
+  };
+
   std::optional<Result> madeSince(std::uint64_t revision) const;
-  void takeMap();
-  Result make(const base::StopToken& stop);
+  void takeMap(Making& making) const;
+  Result make(Making& making, const base::StopToken& stop);
 
   const std::shared_ptr<const MapSeries> series_;
   const costmap::CostmapOptions options_;
-  const costmap::KeptDistances kept_;
-  // Of the thread whose turn it is to make:
-  costmap::CostmapBuilder builder_;
-  std::shared_ptr<const grid::OccupancyGrid> map_;  // the builder's
-  std::optional<std::uint64_t> revision_;           // of map_; none: the builder begins anew
+  // Of the thread whose turn it is to make. What is stopped goes on.
+  base::Rebuildable<Making, base::Stopped> making_maps_;
   mutable std::mutex mutex_;  // of what follows, held for no longer than it takes to read and write
   std::condition_variable ended_;  // a turn has
   bool making_ = false;

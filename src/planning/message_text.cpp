@@ -6,8 +6,6 @@
 
 namespace grid_path_planner::planning {
 
-using costmap::KeptDistances;
-
 namespace {
 
 constexpr double kRoundingOfLengths = 1e-6;  // m
@@ -41,14 +39,6 @@ std::string unreachableText(const Eigen::Vector2d& start, const Eigen::Vector2d&
 std::string unknownNote(const path::ClassLengths& lengths) {
   if (lengths.unknown_m <= kRoundingOfLengths) return "";
   return metresText(lengths.unknown_m) + " of it through unknown cells";
-}
-
-std::string loweredNote(const KeptDistances& asked, const KeptDistances& kept) {
-  std::string note;
-  if (kept.unknown < asked.unknown) note += metresText(kept.unknown) + " from unknown cells";
-  if (kept.outside < asked.outside)
-    note += (note.empty() ? "" : " and ") + metresText(kept.outside) + " from the map's border";
-  return "it keeps only " + note + ", as near as its ends are";
 }
 
 void addNote(std::string& message, const std::string& note) {

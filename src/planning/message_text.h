@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "grid_path_planner/costmap/motion_model.h"
 #include "grid_path_planner/path/metrics.h"
 
 namespace grid_path_planner::planning {
@@ -24,9 +23,6 @@ std::string unreachableText(const Eigen::Vector2d& start, const Eigen::Vector2d&
 
 // "3.2 m of it through unknown cells"; "" where there are none.
 std::string unknownNote(const path::ClassLengths& lengths);
-
-// "it keeps only 0.2 m from unknown cells, as near as its ends are".
-std::string loweredNote(const costmap::KeptDistances& asked, const costmap::KeptDistances& kept);
 
 // Adds a note to a message, after "; ". An empty one adds nothing.
 void addNote(std::string& message, const std::string& note);

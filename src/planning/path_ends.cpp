@@ -1,5 +1,6 @@
 #include "planning/path_ends.h"
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -9,7 +10,7 @@
 namespace grid_path_planner::planning {
 
 using base::Status;
-using costmap::CostmapOptions;
+using costmap::CostmapOptions, costmap::KeptDistances;
 using grid::Cell, grid::GridGeometry, grid::Occupancy;
 using path::Pose;
 
@@ -34,7 +35,7 @@ std::optional<PathEnd> PathEnds::start(Plan& failure) const {
   }
   const bool passable = costs_.passable(*cell);
   if (passable && !segments_.measured()) return PathEnd{*cell, position, "", false};
-  if (passable) {
+  if (segments_.measured() && !closed(costs_.occupancy(*cell))) {
     if (const auto measured = measuredStart(position)) return measured;
   }
   const std::optional<PathEnd> escape =
@@ -53,10 +54,10 @@ std::optional<PathEnd> PathEnds::start(Plan& failure) const {
 
 // What start_escape_radius a start needs that only keeps too little distance; empty for others.
 std::string PathEnds::escapeText(const Eigen::Vector2d& position) const {
-  const Cell own = *costs_.geometry().cellAt(position);
-  const CostmapOptions& costmap = options_.costmap;
-  if (costs_.occupancy(own) == Occupancy::OCCUPIED && !costmap.occupied_is_passable) return "";
-  const auto nearest = nearestCell(costs_.geometry(), position, 2.0 * costmap.radius,
+  if (closed(costs_.occupancy(*costs_.geometry().cellAt(position)))) return "";
+  const KeptDistances kept = costs_.keptDistances();
+  const auto nearest = nearestCell(costs_.geometry(), position,
+                                   2.0 * std::max({kept.occupied, kept.unknown, kept.outside}),
                                    [this](Cell cell) { return costs_.passable(cell); });
   if (!nearest) return "";
   return "; the nearest passable cell is " + metresText(nearest->distance) +
@@ -76,36 +77,25 @@ std::optional<Cell> PathEnds::joinedCell(const Eigen::Vector2d& position, Legal&
   return nearest ? std::optional<Cell>(nearest->cell) : std::nullopt;
 }
 
-// From a start in a passable cell: none where every line to a centre near by comes nearer.
+// From a start in a cell of a class that is entered: none where every line to a centre near by comes nearer.
 std::optional<PathEnd> PathEnds::measuredStart(const Eigen::Vector2d& position) const {
   const auto cell = joinedCell(position, [&](const Eigen::Vector2d& centre) {
     return segments_.leavesStart(position, centre);
   });
   if (!cell) return std::nullopt;
-  const double distance = segments_.at(position).occupied;
-  const double radius = costs_.keptDistances().occupied;
-  const std::string note = distance < radius
-                               ? "the start is " + metresText(distance) +
-                                     " from an occupied cell, nearer than the radius of " +
-                                     metresText(radius)
-                               : "";
-  return PathEnd{*cell, position, note, false};
+  const std::string near = tooNear(position);
+  return PathEnd{*cell, position, near.empty() ? "" : "the start " + near, false};
 }
 
 // At a goal in a passable cell.
 std::optional<PathEnd> PathEnds::measuredGoal(const Eigen::Vector2d& position,
                                               std::string& why) const {
-  if (!segments_.keeps(position, position)) {
-    why = "is " + metresText(segments_.at(position).occupied) +
-          " from an occupied cell, nearer than the radius of " +
-          metresText(costs_.keptDistances().occupied);
-    return std::nullopt;
-  }
+  why = tooNear(position);
+  if (!why.empty()) return std::nullopt;
   const auto cell = joinedCell(
       position, [&](const Eigen::Vector2d& centre) { return segments_.keeps(centre, position); });
   if (cell) return PathEnd{*cell, position, "", false};
-  why = "lies where no straight line leads to it at the radius of " +
-        metresText(costs_.keptDistances().occupied);
+  why = "lies where no straight line leads to it at the distances that are kept";
   return std::nullopt;
 }
 
@@ -186,27 +176,45 @@ std::string PathEnds::complaintAt(const Eigen::Vector2d& position) const {
   return complaint_(pose);
 }
 
-std::string PathEnds::whyBlocked(Cell cell) const {
+// Whether cells of the class are not entered, however far others are.
+bool PathEnds::closed(Occupancy occupancy) const {
   const CostmapOptions& costmap = options_.costmap;
-  switch (costs_.occupancy(cell)) {
-    case Occupancy::OCCUPIED:
-      if (!costmap.occupied_is_passable) return "is in an occupied cell";
-      break;
-    case Occupancy::UNKNOWN:
-      if (!costmap.unknown_is_passable)
-        return "is in an unknown cell and unknown_is_passable is false";
-      break;
-    case Occupancy::FREE:
-      break;
-  }
-  const costmap::KeptDistances kept = costs_.keptDistances();
-  const costmap::KeptDistances own = segments_.at(costs_.geometry().centre(cell));
-  if (own.unknown < kept.unknown)
+  return (occupancy == Occupancy::OCCUPIED && !costmap.occupied_is_passable) ||
+         (occupancy == Occupancy::UNKNOWN && !costmap.unknown_is_passable);
+}
+
+std::string PathEnds::whyBlocked(Cell cell) const {
+  const Occupancy occupancy = costs_.occupancy(cell);
+  if (closed(occupancy))
+    return occupancy == Occupancy::OCCUPIED
+               ? "is in an occupied cell"
+               : "is in an unknown cell and unknown_is_passable is false";
+  const KeptDistances kept = costs_.keptDistances();
+  const KeptDistances own = segments_.at(costs_.geometry().centre(cell));
+  const bool of_occupied = own.occupied < kept.occupied;
+  if (!of_occupied && own.unknown < kept.unknown)
     return "is nearer than the radius_to_unknown of " + metresText(kept.unknown) +
            " to an unknown cell";
-  if (own.outside < kept.outside)
+  if (!of_occupied && own.outside < kept.outside)
     return "is nearer than " + metresText(kept.outside) + " to the border of the map";
-  return "is nearer than the radius of " + metresText(costmap.radius) + " to an occupied cell";
+  return "is nearer than the radius of " + metresText(options_.costmap.radius) +
+         " to an occupied cell";
+}
+
+std::string PathEnds::tooNear(const Eigen::Vector2d& position) const {
+  const KeptDistances kept = costs_.keptDistances();
+  const KeptDistances own = segments_.at(position);
+  if (own.occupied < kept.occupied)
+    return "is " + metresText(own.occupied) + " from an occupied cell, nearer than the radius of " +
+           metresText(kept.occupied);
+  if (own.unknown < kept.unknown)
+    return "is " + metresText(own.unknown) +
+           " from an unknown cell, nearer than the radius_to_unknown of " +
+           metresText(kept.unknown);
+  if (own.outside < kept.outside)
+    return "is " + metresText(own.outside) + " from the border of the map, nearer than the " +
+           metresText(kept.outside) + " that outside keeps";
+  return "";
 }
 
 std::string PathEnds::outsideMap() const {

@@ -60,7 +60,10 @@ class PathEnds {
   std::optional<PathEnd> measuredStart(const Eigen::Vector2d& position) const;
   std::optional<PathEnd> measuredGoal(const Eigen::Vector2d& position, std::string& why) const;
   std::string escapeText(const Eigen::Vector2d& position) const;
+  bool closed(grid::Occupancy occupancy) const;
   std::string whyBlocked(grid::Cell cell) const;
+  // "is 0.2 m from an unknown cell, nearer than ..."; "" at a position that keeps all distances.
+  std::string tooNear(const Eigen::Vector2d& position) const;
   // Of the goal at this position.
   std::string complaintAt(const Eigen::Vector2d& position) const;
   std::string outsideMap() const;

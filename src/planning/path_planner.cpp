@@ -4,8 +4,10 @@
 #include <cassert>
 #include <chrono>
 #include <sstream>
+#include <type_traits>
 #include <utility>
 
+#include "base/rebuildable.h"
 #include "grid/foreign_values.h"
 #include "grid_path_planner/base/options.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
@@ -22,13 +24,13 @@
 namespace grid_path_planner::planning {
 
 using base::checkOptionLimits, base::choiceName, base::InputError, base::sameOptions, base::Status,
-    base::StopSource, base::StopToken;
+    base::Stopped, base::StopSource, base::StopToken;
 using costmap::checkCostmapOptions, costmap::CostGrid, costmap::CostmapBuilder,
-    costmap::CostmapOptions, costmap::keptDistances, costmap::KeptDistances;
+    costmap::CostmapOptions;
 using grid::CellRect, grid::checkOccupancyValues, grid::GridGeometry, grid::OccupancyGrid;
 using path::Footprint, path::HeadingMode;
 using planners::checkSearchOptions, planners::memoryLimitOf, planners::PlannerMaker,
-    planners::traitsOf;
+    planners::TooExpensive, planners::traitsOf;
 
 namespace {
 
@@ -58,15 +60,15 @@ Footprint checkOtherOptions(const PlannerOptions& options) {
 
 }  // namespace
 
-// A costmap that keeps less from unknown cells and from the border, and its search.
-struct PathPlanner::Lowered {
-  Lowered(std::shared_ptr<SharedCostmap> costs, const PlannerOptions& options,
-          PlannerMaker make_planner)
-      : costmap(std::move(costs)),
-        search(options.planner, options.search, std::move(make_planner)) {}
+// What throws these leaves the searches as they may be used.
+struct PathPlanner::Searches
+    : base::Rebuildable<PreparedPlanners, Stopped, InputError, TooExpensive> {
+  explicit Searches(const PlannerMaker& make_planner)
+      : Rebuildable([make_planner] { return PreparedPlanners(make_planner); }) {}
 
-  std::shared_ptr<SharedCostmap> costmap;
-  MultiResolutionPlanner search;
+  void use(const PlannerOptions& options) {
+    change([&](PreparedPlanners& all) { all.use(options.planner, options.search); });
+  }
 };
 
 void checkPlannerOptions(const PlannerOptions& options) {
@@ -89,34 +91,29 @@ PathPlanner::~PathPlanner() = default;
 PathPlanner::PathPlanner(PathPlanner&&) noexcept = default;
 PathPlanner& PathPlanner::operator=(PathPlanner&&) noexcept = default;
 
+// All that may fail comes first.
 void PathPlanner::setOptions(const PlannerOptions& options) {
-  Footprint footprint = checkOtherOptions(options);
-  PlannerOptions searched = options;
-  searched.costmap.radius = std::max(options.costmap.radius, footprint.inscribedRadius());
-  const bool new_costmap = !searches_ || !sameOptions(searched.costmap, searched_.costmap);
-  const bool new_search = new_costmap || options.planner != options_.planner ||
-                          !sameOptions(options.search, options_.search);
-  if (new_search) {
-    if (!searches_) searches_ = std::make_unique<PreparedPlanners>(make_planner_);
-    searches_->use(options.planner, options.search);
-    lowered_.reset();
-  }
-  costmap_is_old_ = costmap_is_old_ || new_costmap;
-  options_ = options;
+  static_assert(std::is_nothrow_move_assignable_v<PlannerOptions>);
+  Footprint outline = checkOtherOptions(options);
+  PlannerOptions given = options, searched = options;
+  searched.costmap.radius = std::max(options.costmap.radius, outline.inscribedRadius());
+  std::unique_ptr<const Footprint> footprint;
+  if (!outline.empty()) footprint = std::make_unique<const Footprint>(std::move(outline));
+  if (!searches_ || !sameOptions(searched.costmap, searched_.costmap))
+    searchOn(series_, searched);
+  else
+    searches_->use(options);
+  options_ = std::move(given);
   searched_ = std::move(searched);
-  footprint_.reset(footprint.empty() ? nullptr : new Footprint(std::move(footprint)));
-  if (costmap_is_old_) useCostmap();
+  footprint_ = std::move(footprint);
 }
 
-// The searches are of other costs. Where memory fails meanwhile, it is begun again with the next map or options.
-void PathPlanner::useCostmap() {
-  costmap_is_old_ = true;
-  searches_->giveUpOthers();
-  searches_->current() = {options_.planner, options_.search, make_planner_};
-  lowered_.reset();
-  costmap_ =
-      series_ ? series_->costmap(searched_.costmap, keptDistances(searched_.costmap)) : nullptr;
-  costmap_is_old_ = false;
+void PathPlanner::searchOn(std::shared_ptr<MapSeries> series, const PlannerOptions& options) {
+  auto searches = std::make_unique<Searches>(make_planner_);
+  searches->use(options);
+  costmap_ = series ? series->costmap(options.costmap) : nullptr;
+  series_ = std::move(series);
+  searches_ = std::move(searches);
 }
 
 void PathPlanner::setMap(std::shared_ptr<const OccupancyGrid> map) {
@@ -135,14 +132,13 @@ void PathPlanner::updateMap(std::shared_ptr<const OccupancyGrid> map,
 }
 
 void PathPlanner::takeMap(std::uint64_t at_least) {
-  at_least_ = at_least;
   std::shared_ptr<MapSeries> series = store_->series();
   if (!series) return;
   if (series->geometry().size() == 0) throw InputError(kNoCells);
-  map_ = series->newest().map;
-  if (series == series_ && !costmap_is_old_) return;
-  series_ = std::move(series);
-  useCostmap();
+  std::shared_ptr<const OccupancyGrid> map = series->newest()->map;
+  if (series != series_) searchOn(std::move(series), searched_);
+  map_ = std::move(map);
+  at_least_ = at_least;
 }
 
 const std::string& PathPlanner::frameId() const {
@@ -181,8 +177,8 @@ std::size_t PathPlanner::bytes() const {
 
 std::size_t PathPlanner::bytesOfSearches() const {
   if (!hasMap()) return 0;
-  return search().bytes() + searches_->bytesOfOthers() +
-         (lowered_ ? bytesOfCosts() + lowered_->search.bytes() : 0);
+  const PreparedPlanners* all = searches_->get();
+  return all ? all->current().bytes() + all->bytesOfOthers() : 0;
 }
 
 std::size_t PathPlanner::memoryLeft(std::size_t taken) const {
@@ -198,8 +194,6 @@ std::size_t PathPlanner::memoryLeft(std::size_t taken) const {
 
 CostmapPair PathPlanner::costmaps(const StopToken& stop) {
   assert(hasMap());
-  // It is kept for the next plan from there, but not where others may want its memory.
-  if (lowered_ && bytes() > memoryLimit() / 2) lowered_.reset();
   search().limitMemory(memoryLeft(bytesOfMaps()));
   SharedCostmap::Result newest = costmap_->newest(stop, at_least_);
   map_ = std::move(newest.map);
@@ -208,52 +202,43 @@ CostmapPair PathPlanner::costmaps(const StopToken& stop) {
 }
 
 void PathPlanner::makeRoom(const CostmapPair& maps) {
-  searches_->keepWithin(memoryLeft(bytesOfMaps()), search().bytesFor(maps.downsampled->geometry()));
+  searches_->get()->keepWithin(memoryLeft(bytesOfMaps()),
+                               search().bytesFor(maps.downsampled->geometry()));
+}
+
+template <class Work>
+decltype(auto) PathPlanner::withSearches(Work&& work) {
+  return searches_->change([&](PreparedPlanners& all) -> decltype(auto) {
+    all.use(options_.planner, options_.search);  // where they were begun anew
+    return work();
+  });
 }
 
 MultiResolutionPlanner& PathPlanner::search() const {
-  return searches_->current();
-}
-
-// Where an end of the request is nearer to unknown cells or to the border than what is kept, what is
-// searched keeps no more than the end has; else null.
-PathPlanner::Lowered* PathPlanner::loweredFor(const CostGrid& costs, const PoseRequest& request) {
-  const KeptDistances kept = EndSegments(costs).loweredTo(request.start.position.head<2>(),
-                                                          request.goal.position.head<2>());
-  if (kept == costs.keptDistances()) {
-    lowered_.reset();
-  } else if (!lowered_ || lowered_->costmap->keptDistances() != kept) {
-    lowered_ = std::make_unique<Lowered>(series_->costmap(searched_.costmap, kept), options_,
-                                         make_planner_);
-  }
-  return lowered_.get();
-}
-
-CostmapPair PathPlanner::loweredCosts(Lowered& lowered, const StopToken& stop) {
-  lowered.search.limitMemory(
-      memoryLeft(bytesOfMaps() + bytesOfSearches() - lowered.search.bytes()));
-  SharedCostmap::Result newest = lowered.costmap->newest(stop);
-  map_ = std::move(newest.map);
-  return std::move(newest.costs);
+  return searches_->get()->current();
 }
 
 CostmapPair PathPlanner::followedCostmaps(const StopToken& stop) {
-  CostmapPair maps = costmaps(stop);
-  search().follow(maps, stop);
-  searches_->followOthers(maps, stop);
-  return maps;
+  return withSearches([&] {
+    CostmapPair maps = costmaps(stop);
+    search().follow(maps, stop);
+    searches_->get()->followOthers(maps, stop);
+    return maps;
+  });
 }
 
 void PathPlanner::prepare(const StopToken& stop) {
-  const CostmapPair maps = costmaps(stop);
-  makeRoom(maps);
-  search().prepare(maps, stop);
-  searches_->followOthers(maps, stop);
+  withSearches([&] {
+    const CostmapPair maps = costmaps(stop);
+    makeRoom(maps);
+    search().prepare(maps, stop);
+    searches_->get()->followOthers(maps, stop);
+  });
 }
 
 void PathPlanner::finishPreparation(const StopToken& stop) {
   prepare(stop);
-  search().finishBackgroundWork(stop);
+  withSearches([&] { search().finishBackgroundWork(stop); });
 }
 
 void PathPlanner::makeReadyForChanges(const StopToken& stop) {
@@ -270,57 +255,54 @@ std::string PathPlanner::footprintContact(const path::Path& path, std::optional<
   return contact ? check.text(*contact) : "";
 }
 
-// On `costs`, which `search` is prepared for.
+// On `costs`, which the search is prepared for.
 Plan PathPlanner::planFor(const PoseRequest& request, const CostGrid& costs,
-                          MultiResolutionPlanner& search, const StopToken& stop) {
+                          const StopToken& stop) {
   if (!footprint_) {
     VehicleTerms terms;
     terms.shape = curvesFor(request, searched_, costs, {}, stop);
-    return planOnCosts(costs, search, request, searched_, stop, terms);
+    return planOnCosts(costs, search(), request, searched_, stop, terms);
   }
   const std::size_t memory = memoryLimit() - std::min(memoryLimit(), bytes());
-  const auto inflate = [this](const CostmapOptions& options, const KeptDistances& kept,
-                              const StopToken& until) {
-    CostmapBuilder builder(options, kept);
+  const auto inflate = [this](const CostmapOptions& options, const StopToken& until) {
+    CostmapBuilder builder(options);
     builder.setMap(map_);
     return builder.fullResolution(until);
   };
-  return FittedPlanner(*footprint_, costs, inflate, searched_, memory).plan(search, request, stop);
+  return FittedPlanner(*footprint_, costs, inflate, searched_, memory)
+      .plan(search(), request, stop);
 }
 
 Plan PathPlanner::plan(const PoseRequest& request, const StopSource& stop) {
   if (!hasMap()) return failedPlan(Status::NO_MAP, "no map has arrived yet");
   return planWithin(options_.timeout, request, stop, [&](const StopToken& token) {
-    const auto begin = StopToken::Clock::now();
-    const CostmapPair asked_for = costmaps(token);
-    CostmapPair maps = asked_for;
-    makeRoom(maps);
-    if (!threshold_fit_) threshold_fit_ = std::make_unique<grid::ThresholdFit>();
-    const std::string& misfit = threshold_fit_->problem(map_, options_.costmap.thresholds, token);
-    Lowered* lowered = loweredFor(*maps.full_resolution, request);
-    if ((lowered || footprint_) && bytes() > memoryLimit() / 2) searches_->releaseOptionalMemory();
-    if (lowered) maps = loweredCosts(*lowered, token);
-    MultiResolutionPlanner& search = lowered ? lowered->search : this->search();
-    search.prepare(maps, token);
-    searches_->followOthers(asked_for, token);
-    const auto prepared = StopToken::Clock::now();
-    Plan plan = planFor(request, *maps.full_resolution, search, token);
-    if (plan.found() && plan.sharp_corners > 0 && !options_.keep_sharp_corners) {
-      const Plan sharp = std::move(plan);
-      plan = failedPlan(Status::UNREACHABLE,
-                        "no path that the vehicle can follow was found; that which "
-                        "turns on the spot: " +
-                            sharp.message);
-      plan.answered_by = sharp.answered_by;
-      plan.statistics = sharp.statistics;
-    }
-    if (lowered && plan.found())
-      addNote(plan.message,
-              loweredNote(costmap_->keptDistances(), lowered->costmap->keptDistances()));
-    addNote(plan.message, misfit);
-    plan.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();
-    return plan;
+    return withSearches([&] { return planNow(request, token); });
   });
+}
+
+Plan PathPlanner::planNow(const PoseRequest& request, const StopToken& token) {
+  const auto begin = StopToken::Clock::now();
+  const CostmapPair maps = costmaps(token);
+  makeRoom(maps);
+  if (!threshold_fit_) threshold_fit_ = std::make_unique<grid::ThresholdFit>();
+  const std::string& misfit = threshold_fit_->problem(map_, options_.costmap.thresholds, token);
+  if (footprint_ && bytes() > memoryLimit() / 2) searches_->get()->releaseOptionalMemory();
+  search().prepare(maps, token);
+  searches_->get()->followOthers(maps, token);
+  const auto prepared = StopToken::Clock::now();
+  Plan plan = planFor(request, *maps.full_resolution, token);
+  if (plan.found() && plan.sharp_corners > 0 && !options_.keep_sharp_corners) {
+    const Plan sharp = std::move(plan);
+    plan = failedPlan(Status::UNREACHABLE,
+                      "no path that the vehicle can follow was found; that which "
+                      "turns on the spot: " +
+                          sharp.message);
+    plan.answered_by = sharp.answered_by;
+    plan.statistics = sharp.statistics;
+  }
+  addNote(plan.message, misfit);
+  plan.preparation_time_s = std::chrono::duration<double>(prepared - begin).count();
+  return plan;
 }
 
 }  // namespace grid_path_planner::planning

@@ -45,8 +45,7 @@ bool sameEnd(const Path& a, const Path& b) {
 // The first two segments lead from where the vehicle is, which may be nearer, to the path and along
 // it.
 bool keepsDistances(const Polyline& line, const CostGrid& costs) {
-  const KeptDistances lowered = EndSegments(costs).loweredTo(line.front(), line.back());
-  const EndSegments segments(costs, lowered);
+  const EndSegments segments(costs);
   const KeptDistances at_start = segments.at(line.front());
   for (std::size_t i = 0; i + 1 < line.size() && i < kFromStart; ++i)
     if (!segments.leavesStart(line[i], line[i + 1], at_start)) return false;

@@ -19,10 +19,7 @@ constexpr double kOnLine = 1e-9;
 class Thinning {
  public:
   Thinning(const Path& path, double tolerance, const CostGrid& costs)
-      : poses_(path.poses),
-        tolerance_(tolerance),
-        costs_(costs),
-        segments_(costs, EndSegments(costs).loweredTo(at(0), at(poses_.size() - 1))) {}
+      : poses_(path.poses), tolerance_(tolerance), costs_(costs), segments_(costs) {}
 
   // The first pose and, after each, the last that a straight line from it may lead to.
   std::vector<Pose> kept() const {

@@ -26,18 +26,20 @@ constexpr double kResolutionSlack = 1e-7;
 // How large a vehicle may be in every cell: its radius in half cells, squared.
 class Room {
  public:
-  Room(const CostGrid& costs, const CostmapOptions& options, const KeptDistances& kept,
-       const StopToken& stop)
-      : costs_(costs), options_(options), kept_(kept), values_(costs.geometry().size(), kFar) {
+  Room(const CostGrid& costs, const CostmapOptions& options, const StopToken& stop)
+      : costs_(costs),
+        options_(options),
+        kept_(costmap::keptDistances(options)),
+        values_(costs.geometry().size(), kFar) {
     const CellRect all = costs.geometry().rect();
-    const int reach = reachOf(std::max(options.radius, kept.unknown));
+    const int reach = reachOf(std::max(options.radius, kept_.unknown));
     if (!options.occupied_is_passable)
       takeDistances(obstacleDistances(costs.classes(), Occupancy::OCCUPIED, all, reach, stop), true,
                     options.radius);
-    if (!options.unknown_is_passable || kept.unknown > 0.0)
+    if (!options.unknown_is_passable || kept_.unknown > 0.0)
       takeDistances(obstacleDistances(costs.classes(), Occupancy::UNKNOWN, all, reach, stop),
-                    options.radius_to_unknown < 0.0, kept.unknown);
-    if (options.outside != Outside::FREE && kept.outside > 0.0) takeBorder();
+                    options.radius_to_unknown < 0.0, kept_.unknown);
+    if (options.outside != Outside::FREE && kept_.outside > 0.0) takeBorder();
     closeClasses();
   }
 
@@ -84,7 +86,7 @@ class Room {
 
   const CostGrid& costs_;
   const CostmapOptions& options_;
-  const KeptDistances& kept_;
+  const KeptDistances kept_;
   std::vector<HalfCellsSquared> values_;
 };
 
@@ -156,10 +158,9 @@ class WidestSearch {
 }  // namespace
 
 std::optional<WidestPath> widestPath(const CostGrid& costs, const CostmapOptions& options,
-                                     const KeptDistances& kept, Cell start, Cell goal,
-                                     const StopToken& stop) {
+                                     Cell start, Cell goal, const StopToken& stop) {
   const GridGeometry& geometry = costs.geometry();
-  const Room room(costs, options, kept, stop);
+  const Room room(costs, options, stop);
   WidestSearch search(geometry, room, stepsOf(options.motion));
   if (!search.run(start, goal, stop)) return std::nullopt;
   WidestPath widest;

@@ -1,6 +1,6 @@
 // The path between two cells whose narrowest place is widest: the one that the largest vehicle takes.
 //
-//   const auto widest = widestPath(costs, options, kept, start, goal, stop);
+//   const auto widest = widestPath(costs, options, start, goal, stop);
 //   if (widest) use(widest->clearance, widest->narrowest);
 //
 // `clearance` is the largest radius, in metres, with which a path is found between cells where `radius`
@@ -25,11 +25,10 @@ struct WidestPath {
   std::vector<grid::Cell> cells;
 };
 
-// `costs` is the costmap at full resolution that `options` make, `kept` what is kept between these
-// ends (EndSegments::loweredTo()). None where no radius lets a path through. Throws Stopped.
+// `costs` is the costmap at full resolution of these options, or of others of the same classes. None where no
+// radius lets a path through. Throws Stopped.
 std::optional<WidestPath> widestPath(const costmap::CostGrid& costs,
-                                     const costmap::CostmapOptions& options,
-                                     const costmap::KeptDistances& kept, grid::Cell start,
+                                     const costmap::CostmapOptions& options, grid::Cell start,
                                      grid::Cell goal, const base::StopToken& stop);
 
 }  // namespace grid_path_planner::planning

@@ -175,7 +175,7 @@ TEST(MapStore, AStoppedCostmapIsGoneOnWith) {
   store.setMap(shared(map), "map");
   costmap::CostmapOptions options;
   options.radius = 3.0;
-  const auto costmap = store.series()->costmap(options, keptDistances(options));
+  const auto costmap = store.series()->costmap(options);
   StopSource source;
   source.cancel();
   EXPECT_THROW(costmap->newest(source.token()), Stopped);

@@ -142,11 +142,11 @@ TEST(PathPlanner, SaysHowFarAStartMustEscape) {
   const OccupancyGrid map = AsciiMap({"#....", "#....", "#...."}).map;
   const Pose goal = poseAt({4.5, 1.5});
   PlannerOptions options;
-  options.costmap.radius = 1.2;
+  options.costmap.radius = 2.2;
   const Plan refused = planBetween(map, poseAt({1.4, 1.5}), goal, options);
   EXPECT_EQ(refused.status, Status::START_OCCUPIED);
-  EXPECT_TRUE(says(refused, "the nearest passable cell is 1.1 m away")) << refused.message;
-  options.start_escape_radius = 1.1;
+  EXPECT_TRUE(says(refused, "the nearest passable cell is 2.1 m away")) << refused.message;
+  options.start_escape_radius = 2.1;
   EXPECT_EQ(planBetween(map, poseAt({1.4, 1.5}), goal, options).status, Status::FOUND);
   EXPECT_FALSE(says(planBetween(map, poseAt({0.5, 1.5}), goal), "start_escape_radius"))
       << "a vehicle in a wall is in the wrong place";

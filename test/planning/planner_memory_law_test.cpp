@@ -1,7 +1,8 @@
-// Whatever allocation fails while a planner takes a map of another size, or other options: afterwards it plans by these.
+// Whatever allocation fails while a planner takes a map of another size, or other options: it plans by those before until it
+// has taken these.
 //
 // By the code: what was taken first was held for taken as a whole. The planner went on with the costmap of the map, or of the
-// options, before, without a word.
+// options, before, without a word; later it told the options, and planned on nothing until the next ones came.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -75,7 +76,9 @@ TEST(PlannerMemoryLaw, AMapOfAnotherSizeIsPlannedOnThoughItWasTakenInPart) {
         return planning;
       },
       [](Planning& planning) { planning.planner.takeMap(); },
-      [](Planning& planning, int number) {
+      [&](Planning& planning, int number) {
+        if (planning.planner.map() != walled)
+          EXPECT_EQ(planning.planner.plan(alongTheFirstRow()).status, Status::FOUND) << number;
         planning.planner.takeMap();
         EXPECT_EQ(planning.planner.plan(alongTheFirstRow()).status, Status::UNREACHABLE) << number;
       });
@@ -99,9 +102,44 @@ TEST(PlannerMemoryLaw, OtherOptionsAreThoseThatIsPlannedByThoughTheyWereTakenInP
       },
       [](Planning& planning) { planning.planner.setOptions(ofRadius(0.9)); },
       [&](Planning& planning, int number) {
+        const bool narrow_is_open = planning.planner.plan(inTheLane()).status == Status::FOUND;
+        EXPECT_EQ(planning.planner.options().costmap.radius, narrow_is_open ? 0.0 : 0.9) << number;
         planning.planner.setOptions(ofRadius(0.9));
         EXPECT_NE(planning.planner.plan(inTheLane()).status, Status::FOUND) << number;
       });
+}
+
+TEST(PlannerMemoryLaw, WhatAPlanLeftHalfDoneIsMadeAnewByTheNext) {
+  const auto rooms = picture({"...#...", ".#.#.?.", ".#...?.", ".####..", "......."});
+  PoseRequest request;
+  request.start.position.head<2>() << 0.5, 0.5;
+  request.goal.position.head<2>() << 4.5, 0.5;
+  const Plan expected = [&] {
+    PathPlanner planner(ofRadius(0.3));
+    planner.setMap(rooms);
+    return planner.plan(request);
+  }();
+  ASSERT_EQ(expected.status, Status::FOUND);
+  for (const bool changed : {false, true}) {
+    failEach(
+        [&] {
+          auto planner = std::make_unique<PathPlanner>(ofRadius(0.3));
+          planner->setMap(rooms);
+          if (!changed) return planner;
+          auto other = std::make_shared<OccupancyGrid>(*rooms);
+          (*other)[{6, 4}] = 100;
+          planner->setMap(other);
+          EXPECT_EQ(planner->plan(request).status, Status::FOUND);
+          planner->updateMap(rooms, {{6, 4, 1, 1}});
+          return planner;
+        },
+        [&](PathPlanner& planner) { planner.plan(request); },
+        [&](PathPlanner& planner, int number) {
+          const Plan plan = planner.plan(request);
+          ASSERT_EQ(plan.status, Status::FOUND) << number << ": " << plan.message;
+          EXPECT_EQ(plan.costValue(), expected.costValue()) << number;
+        });
+  }
 }
 
 }  // namespace

@@ -146,24 +146,6 @@ TEST_F(PreparedState, IsGivenUpForAnotherMapAndOtherCosts) {
   EXPECT_EQ(counts_["a"].prepared, 3);
 }
 
-// It was made anew for every plan of a node, which gives its options with each.
-TEST_F(PreparedState, OfEndsNearUnknownCellsIsKeptToo) {
-  PlannerOptions options;
-  options.planner = "a";
-  options.costmap.radius_to_unknown = 3.0;  // the start is 1.5 m from the border
-  for (int round = 0; round < 3; ++round) ask(options);
-  EXPECT_EQ(counts_["a"].prepared, 1);
-  options.timeout = 1.0;
-  ask(options);
-  EXPECT_EQ(counts_["a"].prepared, 1);
-  options.search.landmarks = 8;
-  ask(options);
-  EXPECT_EQ(counts_["a"].prepared, 2);
-  planner_.limitMemory(2 * planner_.bytes() - 2);
-  ask(options);
-  EXPECT_EQ(counts_["a"].prepared, 3) << "others may want its memory";
-}
-
 TEST_F(PreparedState, ThatWasAskedForLongestAgoGoesFirst) {
   ask("a");
   planner_.limitMemory(planner_.bytes() + kBytes);  // two of them
@@ -187,13 +169,10 @@ TEST_F(PreparedState, GivesItsOptionalMemoryBeforeAnythingThatIsPrepared) {
   EXPECT_EQ(counts_["a"].prepared, 1);
 }
 
-// What a footprint's further tries and ends with less room around them take is not known beforehand.
-TEST_F(PreparedState, GivesItsOptionalMemoryToFootprintsAndLoweredEnds) {
-  PlannerOptions lowered, footprint;
-  lowered.costmap.radius_to_unknown = 3.0;  // the start is 1.5 m from the border
+// What a footprint's further tries take is not known beforehand.
+TEST_F(PreparedState, GivesItsOptionalMemoryToFootprints) {
+  PlannerOptions footprint;
   footprint.footprint = "[[1, 1], [1, -1], [-1, -1], [-1, 1]]";
-  EXPECT_TRUE(keepsOptionalMemory(lowered, 3.0));
-  EXPECT_FALSE(keepsOptionalMemory(lowered, 0.9));
   EXPECT_TRUE(keepsOptionalMemory(footprint, 3.0));
   EXPECT_FALSE(keepsOptionalMemory(footprint, 1.9));
   EXPECT_TRUE(keepsOptionalMemory({}, 1.9));

@@ -27,9 +27,8 @@ struct Inflations;
 
 class CostmapBuilder {
  public:
-  // Throws InputError for options that cannot be used. `kept` replaces the distances of the options.
+  // Throws InputError for options that cannot be used.
   explicit CostmapBuilder(const CostmapOptions& options);
-  CostmapBuilder(const CostmapOptions& options, const KeptDistances& kept);
 
   // Memory that the costmaps of a map of this geometry take, each of them so many times (twice as long
   // as no reader keeps old ones, double_buffered.h).
@@ -59,7 +58,6 @@ class CostmapBuilder {
   }
 
   const CostmapOptions& options() const { return options_; }
-  const KeptDistances& keptDistances() const { return kept_; }
 
  private:
   void bringUpToDate(const base::StopToken& stop);
@@ -73,7 +71,6 @@ class CostmapBuilder {
   void updateDownsampled(const base::StopToken& stop);
 
   CostmapOptions options_;
-  KeptDistances kept_;
   std::shared_ptr<const grid::OccupancyGrid> map_;
   std::shared_ptr<const Inflations> inflations_;  // for the resolution of map_
   std::vector<grid::CellRect> full_dirty_;        // cells of map_ that changed since full_

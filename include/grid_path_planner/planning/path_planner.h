@@ -11,7 +11,7 @@
 // No point of the path is nearer to an occupied cell than `radius`, nor to unknown cells and the
 // map's border than radius_to_unknown and outside ask, for every planner, kernel and smoothing;
 // except on the first segment of a start that is itself nearer, with cut_corners, and with the rule
-// filter2d. Where an end is nearer to unknown cells or to the border, the path keeps what it has.
+// filter2d. A goal that is nearer to any of these is GOAL_OCCUPIED.
 // With a footprint (a vehicle that is not round) radius is at least its inscribed radius, and the footprint
 // meets no obstacle anywhere on the path: planning/footprint/fitted_plan.h says what is tried, and what is not.
 // What a planner prepared of the map is kept for each planner and options that were asked for, as
@@ -50,7 +50,6 @@ namespace grid_path_planner::planning {
 class MapSeries;
 class MapStore;
 class MultiResolutionPlanner;
-class PreparedPlanners;
 class SharedCostmap;
 struct CostmapPair;
 
@@ -168,7 +167,7 @@ class PathPlanner {
   PathPlanner(PathPlanner&&) noexcept;
   PathPlanner& operator=(PathPlanner&&) noexcept;
 
-  // Throws InputError and keeps the old options where the new ones cannot be used.
+  // Throws InputError where they cannot be used. Whatever it throws, the old options stay.
   void setOptions(const PlannerOptions& options);
   const PlannerOptions& options() const { return options_; }
 
@@ -181,7 +180,7 @@ class PathPlanner {
   // Takes the newest map that was set here or in the shared store; the calls that follow may take
   // later ones of the same geometry and frame by themselves, and no others. `at_least`: an earlier map
   // of that revision (MapStore) or a higher one will do where its costmaps are there. Throws
-  // InputError for a map without cells.
+  // InputError for a map without cells. Whatever it throws, the old map stays.
   void takeMap(std::uint64_t at_least = std::numeric_limits<std::uint64_t>::max());
   bool hasMap() const { return map_ != nullptr; }
   // That of the last call.
@@ -232,10 +231,11 @@ class PathPlanner {
   Plan plan(const PoseRequest& request, const base::StopSource& stop = {});
 
  private:
-  struct Lowered;
+  struct Searches;
 
-  // Takes the costmap of the series and the options; what was searched is of another one.
-  void useCostmap();
+  // Takes the costmap of the series and the options; what was searched is of another one. Changes nothing
+  // where it throws.
+  void searchOn(std::shared_ptr<MapSeries> series, const PlannerOptions& options);
   std::size_t memoryLimit() const;
   // Of the maps and costmaps.
   std::size_t buffers() const;
@@ -249,11 +249,13 @@ class PathPlanner {
   CostmapPair followedCostmaps(const base::StopToken& stop);
   // Gives up searches that were asked for long ago, where the one to be prepared needs their memory.
   void makeRoom(const CostmapPair& maps);
+  // What work() gives, which uses search(). What an error leaves half prepared is prepared anew next time.
+  template <class Work>
+  decltype(auto) withSearches(Work&& work);
   MultiResolutionPlanner& search() const;
-  Lowered* loweredFor(const costmap::CostGrid& costs, const PoseRequest& request);
-  CostmapPair loweredCosts(Lowered& lowered, const base::StopToken& stop);
+  Plan planNow(const PoseRequest& request, const base::StopToken& stop);
   Plan planFor(const PoseRequest& request, const costmap::CostGrid& costs,
-               MultiResolutionPlanner& search, const base::StopToken& stop);
+               const base::StopToken& stop);
 
   planners::PlannerMaker make_planner_;
   std::size_t memory_limit_ = std::numeric_limits<std::size_t>::max();
@@ -265,12 +267,10 @@ class PathPlanner {
   std::shared_ptr<MapSeries> series_;  // null before takeMap()
   std::shared_ptr<const grid::OccupancyGrid> map_;
   std::shared_ptr<SharedCostmap> costmap_;  // of series_ and the options; null before takeMap()
-  bool costmap_is_old_ = false;             // of others, since the change to these failed
   std::uint64_t at_least_ = std::numeric_limits<std::uint64_t>::max();  // as takeMap() was told
   costmap::CostChanges downsampled_changes_;
   std::unique_ptr<grid::ThresholdFit> threshold_fit_;  // null before the first plan
-  std::unique_ptr<PreparedPlanners> searches_;  // of these costmaps
-  std::unique_ptr<Lowered> lowered_;            // for the last request, if it needed one
+  std::unique_ptr<Searches> searches_;                 // of these costmaps
 };
 
 }  // namespace grid_path_planner::planning

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "grid_path_planner/costmap/costmap_builder.h"
-#include "planning/end_segments.h"
 #include "planning/message_text.h"
 #include "planning/route.h"
 #include "planning/turning/curves.h"
@@ -16,8 +15,7 @@
 namespace grid_path_planner::planning {
 
 using base::Status, base::StopToken;
-using costmap::CostGrid, costmap::CostmapBuilder, costmap::KeptDistances, costmap::keptDistances,
-    costmap::SegmentRule;
+using costmap::CostGrid, costmap::CostmapBuilder, costmap::SegmentRule;
 using path::Footprint, path::FootprintContact, path::Path, path::Pose;
 
 namespace {
@@ -97,16 +95,12 @@ std::size_t FittedPlanner::bytesOfTries() const {
   return 2 * CostmapBuilder::bytesFor(costs_.geometry(), 1);
 }
 
-// For a disc of the circumscribed radius; unknown cells and the border no farther than the ends.
-std::shared_ptr<const CostGrid> FittedPlanner::turningCosts(const PoseRequest& request,
-                                                            const StopToken& stop) const {
+// For a disc of the circumscribed radius.
+std::shared_ptr<const CostGrid> FittedPlanner::turningCosts(const StopToken& stop) const {
   costmap::CostmapOptions options = options_.costmap;
   options.radius = std::max(options.radius, footprint_.circumscribedRadius());
   options.kernel = 1;
-  const KeptDistances kept =
-      EndSegments(costs_, keptDistances(options))
-          .loweredTo(request.start.position.head<2>(), request.goal.position.head<2>());
-  return inflate_(options, kept, stop);
+  return inflate_(options, stop);
 }
 
 // The pose on the straight line that leaves (sign 1) or reaches (-1) an end in its heading, where the vehicle can turn
@@ -198,7 +192,7 @@ Plan FittedPlanner::planWithRoom(Plan first, const PoseRequest& request, const S
   spent_ = first.statistics;
   if (memory_ < bytesOfTries())
     return failed(first, request, contact, "memory_limit leaves no room to look for another path");
-  const std::shared_ptr<const CostGrid> turning = turningCosts(request, stop);
+  const std::shared_ptr<const CostGrid> turning = turningCosts(stop);
   Plan plan;
   if (tryAgain(plan, request, *turning, stop))
     return completed(std::move(plan), request,

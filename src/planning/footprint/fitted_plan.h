@@ -27,9 +27,9 @@ class FittedPlanner {
  public:
   static constexpr int kTries = 8;
 
-  // Gives the costmap at full resolution for the radius of other options, which keeps other distances. Throws Stopped.
+  // Gives the costmap at full resolution for the radius of other options. Throws Stopped.
   using Inflate = std::function<std::shared_ptr<const costmap::CostGrid>(
-      const costmap::CostmapOptions&, const costmap::KeptDistances&, const base::StopToken&)>;
+      const costmap::CostmapOptions&, const base::StopToken&)>;
 
   // `costs` is the costmap at full resolution that the search is prepared for; the radius of `options` is that
   // which it keeps. `memory`: bytes that the tries may take. All references outlive this.
@@ -48,8 +48,7 @@ class FittedPlanner {
   Plan planAnew(std::shared_ptr<const costmap::CostGrid> costs, const PoseRequest& request,
                 const VehicleTerms& terms, const PlannerOptions& options,
                 const base::StopToken& stop);
-  std::shared_ptr<const costmap::CostGrid> turningCosts(const PoseRequest& request,
-                                                        const base::StopToken& stop) const;
+  std::shared_ptr<const costmap::CostGrid> turningCosts(const base::StopToken& stop) const;
   // A try: what is asked, and on which terms.
   struct Question {
     PoseRequest request;

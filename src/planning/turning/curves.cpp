@@ -35,8 +35,7 @@ class Curves {
     Path path = withoutRepeats(plan.path);
     const Pose first = plan.path.poses.front(), last = plan.path.poses.back();
     if (path.poses.size() < 2) return standing(plan);
-    const EndSegments segments(
-        costs_, EndSegments(costs_).loweredTo(first.position.head<2>(), last.position.head<2>()));
+    const EndSegments segments(costs_);
     const auto legal = [&](const Points& line) { return isLegal(line, segments); };
     const auto goal =
         request_.any_goal_heading ? std::nullopt : drivingDirection(last.yaw, options_.heading);
