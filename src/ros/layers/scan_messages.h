@@ -19,8 +19,8 @@ void checkScan(const sensor_msgs::LaserScan& scan);
 void checkScanPose(const geometry_msgs::TransformStamped& map_from_scan);
 
 // The rays of those that measured: a hit for a range above 0, from range_min on and below range_max; a free ray for +inf
-// where `inf_clears`. The others say nothing: NaN, -inf, what is below range_min (sensor_msgs and REP 117), and the ways in
-// which drivers and simulators say that nothing came back: range_max, more than that, 0. Each is put down into
+// where `inf_clears`. The others say nothing: NaN, -inf, what is below range_min (sensor_msgs and REP 117), and what
+// drivers and simulators send where nothing came back: range_max, more than that, 0. Each is put down into
 // the map's plane. Preconditions: checkScan() and checkScanPose() take them; `map_from_scan` is of its
 // stamp.
 layers::ScanInMap scanInMap(const sensor_msgs::LaserScan& scan,
