@@ -17,6 +17,7 @@
 #include "ros/guard/outgoing/topic_changes.h"
 #include "ros/guard/outgoing/unread_log.h"
 #include "ros/guard/process/freed_memory.h"
+#include "ros/guard/process/memory_failures.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -127,6 +128,7 @@ int runNode(int argc, char** argv, const std::string& name, const NodeMaker& mak
             const std::function<void()>& check) {
   node_process = true;
   returnFreedMemory();
+  endAfterMemoryFailures();
   loseUnreadLog();
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   std::signal(SIGINT, onSignal);

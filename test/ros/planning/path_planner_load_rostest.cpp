@@ -67,7 +67,8 @@ class LoadTest : public test::PlannerTest {
 // queue: no planning map in 15 s, and the vehicle drove on towards the wall. The questions of clients have a thread of
 // their own, so that few of them are answered meanwhile: the vehicle waits for none.
 TEST_F(LoadTest, ABlockedPathIsReplannedWhateverIsAsked) {
-  constexpr int kSide = 1500, kMostAnswers = 4;
+  // A costmap and a plan, beside a thread that answers questions of the same size: the vehicle waits for none of these.
+  constexpr int kSide = 1500, kMostAnswers = 20;
   startPlanner({"_planner:=dijkstra", "_timeout:=60", "_replan_period:=0"});
   placeVehicle(0.5, kSide / 2 + 0.5);
   const OccupancyGrid open = field(kSide), wall = divided(open);

@@ -14,6 +14,7 @@ constexpr std::int64_t kNever = 0;
 
 // Of the steady clock; kNever before the first.
 std::atomic<std::int64_t> newest_failure{kNever};
+std::atomic<bool> ends{false};
 
 // Text that needs no memory.
 void writeError(const char* text, std::size_t length) noexcept {
@@ -22,11 +23,15 @@ void writeError(const char* text, std::size_t length) noexcept {
 
 }  // namespace
 
+void endAfterMemoryFailures() noexcept {
+  ends = true;
+}
+
 bool noteMemoryFailure() noexcept {
   const std::int64_t now = std::chrono::steady_clock::now().time_since_epoch().count();
   const std::int64_t before = newest_failure.exchange(now);
   constexpr auto kBetween = std::chrono::steady_clock::duration(kBetweenMemoryFailures).count();
-  if (before == kNever || now - before > kBetween) return false;
+  if (!ends || before == kNever || now - before > kBetween) return false;
   constexpr char kText[] =
       "There was not enough memory twice within 10 s: the process ends, for respawn to start it "
       "anew\n";

@@ -25,6 +25,7 @@ void handle(int signal) {
 
 [[noreturn]] void failTwice() {
   handle(SIGINT);
+  endAfterMemoryFailures();
   if (noteMemoryFailure()) std::_Exit(1);
   noteMemoryFailure();
   std::_Exit(kWentOn);
@@ -32,6 +33,7 @@ void handle(int signal) {
 
 [[noreturn]] void callThatThrows(const std::function<void()>& callback, int times) {
   handle(SIGINT);
+  endAfterMemoryFailures();
   ros::CallbackQueue behind;
   GuardedQueue queue(behind);
   for (int i = 0; i < times; ++i) {
@@ -47,6 +49,15 @@ void failToAllocate() {
 
 TEST(MemoryFailures, ASecondOneEndsTheProcessInOrder) {
   EXPECT_EXIT(failTwice(), testing::ExitedWithCode(kEndedInOrder), "twice within 10 s");
+}
+
+// A nodelet's manager is another package's program, with nodelets of others.
+TEST(MemoryFailures, AProcessThatIsNotTheNodesOwnGoesOn) {
+  const auto fail = [] {
+    if (noteMemoryFailure() || noteMemoryFailure()) std::_Exit(1);
+    std::_Exit(kWentOn);
+  };
+  EXPECT_EXIT(fail(), testing::ExitedWithCode(kWentOn), "");
 }
 
 TEST(MemoryFailures, OneCallbackWithoutMemoryIsGivenUpAndTheNodeGoesOn) {
