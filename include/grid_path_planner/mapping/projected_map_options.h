@@ -77,10 +77,10 @@ void visitCloudQueueOptions(ProjectedMapOptions& o, Visitor&& visit) {
         base::OptionInfo{"How long a cloud waits for its transform; it holds up no other", "s", 0.0,
                          1000.0});
   visit("queue_size", o.queue_size,
-        base::OptionInfo{
-            "How many clouds wait for their transforms or their turn; the oldest of more "
-            "are dropped, and counted",
-            "", 1, 10000});
+        base::OptionInfo{"How many clouds wait for their transforms, and as many for their turn; "
+                         "of more, one that is "
+                         "not the oldest of its frame is dropped, and counted",
+                         "", 1, 10000});
 }
 
 template <class Visitor>
