@@ -1,7 +1,7 @@
 // A value that is too large to be copied for each change (committed.h) and is changed in place: what an error
 // leaves half done is given up as a whole, and made anew when it is needed next.
 //
-//   Rebuildable<Costmaps, Stopped> costmaps([this] { return Costmaps(options_); });
+//   Rebuildable<Costmaps, Stopped> costmaps([&] { return Costmaps(options); });
 //   costmaps.change([&](Costmaps& maps) { maps.update(map); });
 //
 // Guaranteed: no change begins with a value that another one left half done. Errors of the types `Answers`

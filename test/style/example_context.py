@@ -47,7 +47,8 @@ CONTEXT = {
                     "extern Path path; void queue(std::function<void()>); void takeReports();",
     "navigator.h": "extern NavigatorOptions options; extern double now; extern path::Path path;"
                    "void carryOut(const NavigatorOrder&);",
-    "driven_track.h": "extern path::Pose pose;", "control_thread.h": "#include <ros/node_handle.h>\nextern ros::NodeHandle nh; void tick();",
+    "driven_track.h": "extern path::Pose pose;", "control_thread.h": "#include <ros/node_handle.h>\nextern ros::NodeHandle nh; void tick();"
+                     "struct Zero {}; void publish(Zero);",
     "action_caller.h": """#include "grid_path_planner/PlanPathAction.h"
         extern ros::NodeHandle nh; extern const PlanPathGoal goal; extern double timeout;
         void on_result(const PlanPathResult&); void on_feedback(const PlanPathFeedback&);
@@ -55,8 +56,8 @@ CONTEXT = {
     "seen_goals.h": "extern const actionlib_msgs::GoalStatusArray status; extern const std::string id; void waitForResult();",
     "velocity_message.h": "extern const nav_msgs::Odometry odometry;",
     "go_to_messages.h": "#include <move_base_msgs/MoveBaseGoal.h>\nextern const move_base_msgs::MoveBaseGoal goal;"
-                        "extern following::Navigator navigator; extern double now; extern const PlanPathResult result;"
-                        "extern const NavigatePathFeedback feedback;",
+                        "extern following::Navigator navigator; extern double now; extern const PlanPathResult plan;"
+                        "extern const NavigatePathFeedback feedback; extern const NavigatePathResult result;",
     "kept_file.h": "extern const std::string folder; extern ros::NodeHandle private_nh;",
     "kept_heading.h": "#include \"localization/vehicle_localizer.h\"\nextern const std::string folder; extern ros::NodeHandle private_nh;"
                       "extern localization::VehicleLocalizer localizer; extern const localization::KnownHeading known;",
@@ -262,7 +263,15 @@ CONTEXT = {
                        "extern BackwardNodes::Index start; extern SearchKey consistent_below;"
                        "extern SearchResult result; extern StopPoll poll; extern std::uint64_t most;",
     "file_folder.h": '#include "ros/messages/file_kinds.h"\nextern std::string text;',
-    "frame_lookup.h": "extern ros::NodeHandle nh; extern double limit;",
+    "frame_lookup.h": "extern ros::NodeHandle nh; extern double limit; extern geometry_msgs::PoseStamped message;",
+    "node_time.h": "#include <geometry_msgs/PoseStamped.h>\n#include \"grid_path_planner/base/errors.h\"\n"
+                   "using base::InputError; extern ros::NodeHandle nh; extern geometry_msgs::PoseStamped message; void forgetWhatWasSeen();",
+    "foreign_rules.h": "#include \"grid_path_planner/ros/occupancy_conversion.h\"\nextern const MapEvent event;",
+    "pose_reading.h": "#include <ros/console.h>\nextern geometry_msgs::Pose message; path::Pose placed(const path::Pose&);",
+    "committed.h": "struct Settings { int options; int revision; }; extern int options;",
+    "rebuildable.h": "struct Costmaps { explicit Costmaps(int); void update(int); }; extern int map, options; struct Stopped {};",
+    "foreign_values.h": "extern std::shared_ptr<const OccupancyGrid> map; extern OccupancyThresholds thresholds;"
+                        "void warn(const std::string&);",
     "backward_nodes.h": "extern const BackwardNodes& nodes; extern BackwardNodes::Index index;",
     "backward_search_tree.h": "extern const CostGrid &map, &old_map, &new_map; extern const MovePruning& moves;"
                    "extern Cell goal, start, moved_start; extern double extra; extern SearchResult result; extern CellRect changed;",

@@ -1,7 +1,7 @@
 // What go_to_pose hears, as its navigator takes it.
 //
 //   checkGoal(goal.target_pose, ZeroHeading::REFUSED);             // throws InputError
-//   navigator.planned(navigatorPlanOf(result, "map"), now);
+//   navigator.planned(navigatorPlanOf(plan, "map"), now);
 //   navigator.drove(navigatorDriveOf(feedback), now);
 //   const DriverAnswer ended = driverAnswerOf(result);
 //   navigator.driveEnded(ended.status, ended.message, now);
