@@ -2,7 +2,7 @@
 // ends the node's process, so that `respawn` starts it anew.
 //
 //   endAfterMemoryFailures();   // run_node.h: the process is the node's own. Others, as a nodelet's manager, go on
-//   try { callback(); } catch (...) { noteCurrentError(); }
+//   noteCurrentError();         // in a catch block
 //
 // Three places answer std::bad_alloc: the guarded queue (and with it timers and subscriptions), the task queue's OnError and
 // the control thread. The process ends by its own SIGINT, in order, unless memory fails while it ends, too. Thread-safe.
