@@ -25,7 +25,7 @@ mean one thing only is taken as it is meant, and told once; what cannot is refus
 `test/foreign/traits/` by `test/foreign/write_page.py`. The tests send each row to what its section names; those of sections that
 say so are not sent yet, and hold as far as the code was read.
 
-%d rows: %d are taken, %d are refused%s.
+%d rows: %d are taken, %d are refused%s. Tests send %d of them; the other %d were read, not tried.
 """
 # Of these no test sends the rows yet.
 UNSENT = {"actions", "paths", "images", "navigation", "transforms", "joysticks", "parameters"}
@@ -43,7 +43,9 @@ def page():
     rows = [row for _, row in table.all_rows()]
     refused = sum(map(is_refused, rows))
     opened = sum("open" in row for row in rows)
-    text = BEGINNING % (len(rows), len(rows) - refused, refused, "; %d are not yet right" % opened if opened else "")
+    unsent = sum(kind in UNSENT for kind, _ in table.all_rows())
+    text = BEGINNING % (len(rows), len(rows) - refused, refused, "; not yet right: %d" % opened if opened else "",
+                        len(rows) - unsent, unsent)
     for kind in TITLES:
         text += "\n## %s\n\nTo %s.%s\n\n| who | what | here | read in |\n|---|---|---|---|\n" % (
             TITLES[kind], TAKERS[kind], " Not sent by a test yet." if kind in UNSENT else "")
