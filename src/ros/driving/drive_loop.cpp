@@ -84,6 +84,7 @@ void DriveLoop::finish() {
   thread_.askAtLast([this] {
     follower_.cancel("navigate_path ends");
     finished_ = true;
+    tick();  // what it throws has it done again: the last zero is sent
   });
   if (numberOfListeners() > 0)
     ros::WallDuration(0.1).sleep();  // what a connection did not take is sent by roscpp's thread
