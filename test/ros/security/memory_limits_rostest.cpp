@@ -145,6 +145,7 @@ TEST_F(MappingMemory, ProjectedMapEndsInOrderAfterCloudsThatDoNotFit) {
     publish(points);
     return !node_->running();
   }));
+  EXPECT_EQ(node_->exitCode(), 0) << node_->output();
   EXPECT_TRUE(node_->hasSaid("not enough memory")) << node_->output();
 }
 
