@@ -168,11 +168,8 @@ CONTEXT = {
         void tell(const std::string&);""",
     "speed_limit_receiver.h": """struct Loop { void setSpeedLimits(const SpeedLimits&); };
         extern ros::NodeHandle nh; extern Loop loop;""",
-    "scan_messages.h": """#include "ros/input/frame_lookup.h"
-        extern sensor_msgs::LaserScan::ConstPtr message; extern FrameTransforms transforms; extern std::string frame;
-        extern ros::Time stamp; extern bool inf_clears;""",
-    "scan_queue.h": """extern ScanQueue queue; extern sensor_msgs::LaserScan::ConstPtr message; extern double timeout;
-        void use(const ScanQueue::Ready&);""",
+    "scan_messages.h": """#include "ros/input/input.h"
+        extern Input<sensor_msgs::LaserScan>::Arrival arrival; extern bool inf_clears;""",
     "speed_limit.h": """extern grid::OccupancyGrid limits; extern FollowerOptions options;
         extern std::vector<Eigen::Vector3d> ahead;""",
     "grid_alignment.h": """#include "grid_path_planner/grid/occupancy.h"

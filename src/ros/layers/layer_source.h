@@ -1,9 +1,8 @@
-// A source of map_layers: whether it is there, and how old what it said is.
+// A map that map_layers lays: whether it is there, and how old what it said is. Its scans are judged by Input.
 #pragma once
 
 #include <ros/time.h>
 
-#include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -32,14 +31,6 @@ class LayerSource {
     stamp_ = stamp;
     heard_ = Clock::now();
   }
-  // What it said before does not hold any more: it counts as not there until it says something else.
-  void forget() {
-    there_ = false;
-    heard_ = Clock::now();
-  }
-  // It goes on saying something, of which none can be used: it is not silent, and what it said before holds as long as
-  // it would.
-  void noteRefused() { refused_ = Clock::now(); }
   // It said something that cannot be used: it counts as not there until it says something else.
   void refuse(std::string problem) { problem_ = std::move(problem); }
 
@@ -52,10 +43,9 @@ class LayerSource {
     return topic_ + " has been silent for longer than source_timeout, " +
            base::decimalText(timeout) + " s";
   }
-  // Whether whyNot() is that it says nothing, for `timeout` or, before the first, for that long since it
-  // was made or forgotten.
+  // Whether whyNot() is that it says nothing, for `timeout` or, before the first, for that long since it was made.
   bool silentFor(double timeout) const {
-    return problem_.empty() && expires_ && base::secondsSince(std::max(heard_, refused_)) > timeout;
+    return problem_.empty() && expires_ && base::secondsSince(heard_) > timeout;
   }
   // s of the wall clock; 0 before the first.
   double silence() const { return there_ ? base::secondsSince(heard_) : 0.0; }
@@ -73,7 +63,7 @@ class LayerSource {
   bool there_ = false;
   std::string problem_;
   ros::Time stamp_;
-  Clock::time_point heard_ = Clock::now(), refused_;
+  Clock::time_point heard_ = Clock::now();
 };
 
 }  // namespace grid_path_planner::nodes

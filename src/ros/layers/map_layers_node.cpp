@@ -35,7 +35,7 @@ namespace {
 
 constexpr double kHeartbeatPeriod = 1.0;  // s, wall time
 constexpr double kExpiryPeriod = 0.5;     // s of ROS time
-constexpr std::size_t kMostScans = 5;     // that wait for this node
+constexpr double kBetweenLines = 5.0;     // s, of one reason with other details
 
 void checkMapLayersOptions(MapLayersOptions& options) {
   base::checkOptionLimits(options);
@@ -65,6 +65,19 @@ void checkUnchanged(const MapLayersOptions& a, const MapLayersOptions& b) {
         "map_frame and the sources that are used cannot be changed while the node runs");
 }
 
+InputRules scanRules(const MapLayersOptions& options) {
+  InputRules rules = rulesOf("map_layers", "scan");
+  rules.frames = {options.map_frame};
+  rules.tf_wait = options.tf_timeout;
+  rules.silent_after = options.source_timeout;
+  return rules;
+}
+
+// Without what differs from scan to scan.
+std::string stemOf(const std::string& sentence) {
+  return sentence.substr(0, sentence.find(": "));
+}
+
 void tellOfYaw(const LayerSource& source, const OccupancyGrid& map) {
   if (!source.there() || !grid::hasYaw(map.geometry())) return;
   static LogThrottle seldom(60.0);
@@ -85,6 +98,14 @@ void addTo(diagnostic_updater::DiagnosticStatusWrapper& status, const LayerSourc
   status.add(source.topic() + " silent (s)", source.silence());
 }
 
+void addTo(diagnostic_updater::DiagnosticStatusWrapper& status, const InputBase& scans) {
+  status.add(scans.topic(), scans.problem().value_or("taken"));
+  if (const ros::Time newest = scans.newest(); !newest.isZero())
+    status.add(scans.topic() + " age (s)", secondsBetween(newest, ros::Time::now()));
+  status.add(scans.topic() + " silent (s)", scans.silence());
+  addTo(status, "scans", scans.counts());
+}
+
 }  // namespace
 
 // Of a scan that was laid in part nobody knows what is in the map: as after clear_scan.
@@ -96,8 +117,7 @@ void MapLayersNode::lay(Work work) {
     throw;
   } catch (...) {
     lays_again_ = true;
-    scans_.clear();
-    scan_source_.forget();
+    beginScansAnew("came before an error");
     throw;
   }
 }
@@ -111,10 +131,8 @@ MapLayersNode::MapLayersNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
       transforms_(nh),
       static_source_(nh.resolveName("static_map"), true, false),
       live_source_(nh.resolveName("live_map"), options_.use_live_map, true),
-      scan_source_(nh.resolveName("scan"), options_.use_scan, true),
       keep_out_source_(nh.resolveName("keep_out_mask"), options_.use_keep_out_mask, false),
       speed_source_(nh.resolveName("speed_mask"), options_.use_speed_mask, false),
-      scans_(transforms_),
       publisher_(nh),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   map_.configure(options_, zones_);
@@ -133,6 +151,7 @@ MapLayersNode::~MapLayersNode() {
   diagnostics_timer_.stop();
   static_maps_.shutdown();
   live_maps_.shutdown();
+  if (scans_) scans_->shutdown();
   for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
 }
 
@@ -157,10 +176,8 @@ void MapLayersNode::listen() {
         nh_, [this](const MapChange& change) { onLiveMap(change); }, [this] { onLiveHeartbeat(); },
         "live_map");
   if (options_.use_scan) {
-    subscribers_.push_back(
-        subscribeBounded<sensor_msgs::LaserScan, const sensor_msgs::LaserScan::ConstPtr&>(
-            nh_, "scan", {kMostScans, kMostWaitingBytes},
-            [this](const sensor_msgs::LaserScan::ConstPtr& scan) { onScan(scan); }));
+    scans_ = std::make_unique<Scans>(nh_, "scan", scanRules(options_), transforms_,
+                                     [this](const Scans::Arrival& scan) { onScan(scan); });
     subscribers_.push_back(subscribeChecked<std_msgs::Empty>(
         nh_, "clear_scan", 1, [this](const std_msgs::Empty&) { onClearScan(); }));
   }
@@ -198,6 +215,7 @@ void MapLayersNode::use(MapLayersOptions options) {
   lay([&] { map_.configure(options, zones); });
   zones_ = std::move(zones);
   options_ = std::move(options);
+  if (scans_) scans_->setRules(scanRules(options_));
   warnOfZonesOutside();
   startPublishing();
 }
@@ -218,7 +236,8 @@ void MapLayersNode::take(LayerSource& source, const ros::Time& stamp,
 void MapLayersNode::onStaticMap(const MapChange& change) {
   take(static_source_, change.map.stamp, [&] {
     checkFrame(change.map.frame_id, options_);
-    if (map_.setBase(change.map.grid, change.changed) && !scan_dropped_) scan_source_.forget();
+    if (map_.setBase(change.map.grid, change.changed) && !scan_dropped_)
+      beginScansAnew("came before the static map");
   });
   if (change.changed) return;
   warnOfZonesOutside();
@@ -246,64 +265,62 @@ void MapLayersNode::onLiveHeartbeat() {
     live_source_.beat(heartbeat->stamp);
 }
 
-void MapLayersNode::onScan(const sensor_msgs::LaserScan::ConstPtr& scan) {
-  if (!NodeTime::isThere()) return;
-  scans_.add(scan);
-  lay([this] { takeScans(); });
+void MapLayersNode::onScan(const Scans::Arrival& scan) {
+  checkScan(*scan.message);
+  checkScanPose(scan.poses[0]);
+  lay([&] { map_.insert(scanInMap(*scan.message, scan.poses[0], options_.scan.inf_clears)); });
+}
+
+void MapLayersNode::beginScansAnew(const std::string& why) {
+  if (scans_) scans_->beginAnew(why);
 }
 
 // What waits for its transform was seen before, too. Without a scan since then nobody knows what is there: there is
 // no map until the next.
 void MapLayersNode::onClearScan() {
-  scans_.clear();
+  beginScansAnew("came before clear_scan");
   lay([this] { map_.forgetScans(); });
-  scan_source_.forget();
   static LogThrottle seldom(1.0);
-  ROS_INFO_STREAM_COND(seldom.isDue(), "The obstacles of " << scan_source_.topic()
+  ROS_INFO_STREAM_COND(seldom.isDue(), "The obstacles of " << scans_->topic()
                                                            << " are forgotten, as clear_scan asks");
 }
 
 void MapLayersNode::timeWentBack(double seconds) {
   ROS_WARN_STREAM("ROS time went back by " << seconds << " s: scans and tf are forgotten");
-  scans_.clear();
   lay([this] { map_.forgetScans(); });
-  scan_source_.forget();
   expired_ = {};
 }
 
-void MapLayersNode::takeScans() {
-  while (const auto ready = scans_.take(options_.map_frame, options_.tf_timeout)) {
-    map_.insert(scanInMap(*ready->scan, ready->map_from_scan, options_.scan.inf_clears));
-    scan_source_.accept(ready->scan->header.stamp);
-  }
-  if (std::exchange(refused_scans_, scans_.record().refused()) != scans_.record().refused())
-    scan_source_.noteRefused();
+void MapLayersNode::expireScans() {
   const ros::Time now = ros::Time::now();
   if (secondsBetween(expired_, now) < kExpiryPeriod) return;
   map_.expireScans(now.toSec());
   expired_ = now;
 }
 
-std::string MapLayersNode::whyStale(const LayerSource& source, Layer layer, bool& dropped) {
-  const std::string why = source.whyNot(options_.source_timeout);
-  const bool drops = !why.empty() && options_.stale_source == StaleSource::DROP &&
-                     source.silentFor(options_.source_timeout);
-  if (std::exchange(dropped, drops) != drops) {
+std::string MapLayersNode::unlessDropped(const std::string& why, bool is_silent, Layer layer) {
+  const bool is_scan = layer == Layer::SCAN;
+  const bool drops = !why.empty() && is_silent && options_.stale_source == StaleSource::DROP;
+  if (std::exchange(is_scan ? scan_dropped_ : live_dropped_, drops) != drops) {
     if (drops)
       ROS_WARN_STREAM("The map goes on without what is not there: " << why);
     else
-      ROS_INFO_STREAM(source.topic() << " counts again");
-    if (drops && layer == Layer::SCAN) map_.forgetScans();
+      ROS_INFO_STREAM((is_scan ? scans_->topic() : live_source_.topic()) << " counts again");
+    if (drops && is_scan) map_.forgetScans();
     map_.use(layer, !drops);
   }
   return drops ? "" : why;
 }
 
 std::string MapLayersNode::whyHeld() {
+  const double timeout = options_.source_timeout;
   for (const LayerSource* source : {&static_source_, &keep_out_source_, &speed_source_})
-    if (const std::string why = source->whyNot(options_.source_timeout); !why.empty()) return why;
-  std::string of_live = whyStale(live_source_, Layer::LIVE, live_dropped_);
-  const std::string of_scan = whyStale(scan_source_, Layer::SCAN, scan_dropped_);
+    if (const std::string why = source->whyNot(timeout); !why.empty()) return why;
+  std::string of_live =
+      unlessDropped(live_source_.whyNot(timeout), live_source_.silentFor(timeout), Layer::LIVE);
+  const std::string of_scan = scans_ ? unlessDropped(scans_->problem().value_or(""),
+                                                     scans_->silence() > timeout, Layer::SCAN)
+                                     : "";
   const std::string of_base = static_maps_.whyIncomplete();
   if (of_live.empty() && !live_dropped_) of_live = live_maps_.whyIncomplete();
   if (!of_base.empty()) return of_base;
@@ -326,11 +343,13 @@ void MapLayersNode::publish() {
 }
 
 void MapLayersNode::layAndPublish() {
-  takeScans();
+  expireScans();
   const std::string why = whyHeld();
   const std::string before = std::exchange(held_, why);
   if (!why.empty()) {
-    if (why != before) ROS_WARN_STREAM("There is no map, vehicles stand: " << why);
+    static LogThrottle seldom(kBetweenLines);
+    if (stemOf(why) != stemOf(before) || (why != before && seldom.isDue()))
+      ROS_WARN_STREAM("There is no map, vehicles stand: " << why);
     publisher_.withdraw();
     return;
   }
@@ -350,7 +369,7 @@ ros::Time MapLayersNode::newestOfAll() const {
   };
   if (const MapData base = static_maps_.latest().data; base.beats()) count(base.newest());
   if (live_source_.used() && !live_dropped_) count(live_source_.stamp());
-  if (scan_source_.used() && !scan_dropped_) count(scan_source_.stamp());
+  if (scans_ && !scan_dropped_) count(scans_->newest());
   return oldest;
 }
 
@@ -365,17 +384,15 @@ void MapLayersNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status
   else if (live_dropped_ || scan_dropped_)
     status.summary(
         DiagnosticStatus::WARN,
-        "the map goes on without " + (live_dropped_ ? live_source_ : scan_source_).topic());
+        "the map goes on without " + (live_dropped_ ? live_source_.topic() : scans_->topic()));
   else
     status.summary(DiagnosticStatus::OK, "a map of all sources");
   for (const LayerSource* source :
-       {&static_source_, &live_source_, &scan_source_, &keep_out_source_, &speed_source_})
+       {&static_source_, &live_source_, &keep_out_source_, &speed_source_})
     addTo(status, *source, options_.source_timeout);
+  if (scans_) addTo(status, *scans_);
   status.add("zones", zones_.zones.size());
   status.add("zones outside of the map", map_.zonesOutside().size());
-  status.add("scans", scans_.record().received());
-  status.add("scans refused", scans_.record().refused());
-  status.add("scans refused last because", scans_.record().reason());
   for (const MapReceiver* maps : {&static_maps_, &live_maps_})
     if (const std::string refusal = maps->refusal(); !refusal.empty()) {
       status.add("refused on " + maps->topic(), refusal);

@@ -14,7 +14,7 @@
 // were lost, for longer than kLostTimeout. A map or update that is none is refused, and the one before counts, with a
 // warning in diagnostics. With stale_source drop a laser or live
 // map that has said nothing for source_timeout, since the start or clear_scan too, is done without. What cannot be used
-// changes nothing.
+// changes nothing. Which scans are used: input_rules.cpp.
 // Maps, updates and heartbeats are stamped with what the map holds of all sensors: the oldest of what the live map, the laser and a
 // static map that has heartbeats delivered last, so that who drives by it holds when any of them has ceased. ROS time that goes
 // back forgets scans and tf, not the maps.
@@ -23,6 +23,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 #include <ros/steady_timer.h>
+#include <sensor_msgs/LaserScan.h>
 
 #include <functional>
 #include <memory>
@@ -33,10 +34,10 @@
 #include "ros/guard/node_files.h"
 #include "ros/guard/node_time.h"
 #include "ros/input/frame_lookup.h"
+#include "ros/input/input.h"
 #include "ros/input/map_receiver.h"
 #include "ros/layers/layer_source.h"
 #include "ros/layers/layered_map_publisher.h"
-#include "ros/layers/scan_queue.h"
 
 namespace grid_path_planner {
 class MapLayersConfig;
@@ -57,6 +58,8 @@ class MapLayersNode {
   ~MapLayersNode();
 
  private:
+  using Scans = Input<sensor_msgs::LaserScan>;
+
   layers::Zones loadZones(const layers::MapLayersOptions& options) const;
   void listen();
   void listenToMask(LayerSource& source, const std::string& topic,
@@ -68,10 +71,11 @@ class MapLayersNode {
   void onStaticMap(const MapChange& change);
   void onLiveMap(const MapChange& change);
   void onLiveHeartbeat();
-  void onScan(const sensor_msgs::LaserScan::ConstPtr& scan);
+  void onScan(const Scans::Arrival& scan);
   void onClearScan();
   void timeWentBack(double seconds);
-  void takeScans();
+  void beginScansAnew(const std::string& why);
+  void expireScans();
   // What changes the map: where it fails, for want of memory, all is laid again.
   template <class Work>
   void lay(Work work);
@@ -81,8 +85,8 @@ class MapLayersNode {
   void publishHeartbeat();
   // Why there is no map now, in a sentence; empty where there is.
   std::string whyHeld();
-  // The same for a source that expires; where that is so and stale sources are dropped, it is.
-  std::string whyStale(const LayerSource& source, layers::Layer layer, bool& dropped);
+  // `why` a source cannot be used; empty where it is dropped for it, as stale sources are that are silent.
+  std::string unlessDropped(const std::string& why, bool is_silent, layers::Layer layer);
   // Up to when the map holds what all sensors saw that are used; 0 without one.
   ros::Time newestOfAll() const;
   void warnOfZonesOutside() const;
@@ -94,13 +98,12 @@ class MapLayersNode {
   layers::Zones zones_;
   FrameTransforms transforms_;
   layers::LayeredMap map_;
-  LayerSource static_source_, live_source_, scan_source_, keep_out_source_, speed_source_;
+  LayerSource static_source_, live_source_, keep_out_source_, speed_source_;
   bool live_dropped_ = false, scan_dropped_ = false;
   bool lays_again_ = false;                         // what was to be laid was not, or in part
   std::string held_ = "the node has just started";  // why there is no map
-  ScanQueue scans_;
-  std::uint64_t refused_scans_ = 0;
-  ros::Time expired_;  // when scans were last looked through
+  std::unique_ptr<Scans> scans_;                    // with use_scan
+  ros::Time expired_;                               // when scans were last looked through
   LayeredMapPublisher publisher_;
 
   MapReceiver static_maps_, live_maps_;

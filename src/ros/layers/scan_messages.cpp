@@ -1,12 +1,10 @@
 #include "ros/layers/scan_messages.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/waypoint_file.h"
-#include "ros/input/frame_lookup.h"
 
 namespace grid_path_planner::nodes {
 
@@ -45,20 +43,18 @@ void checkScan(const sensor_msgs::LaserScan& scan) {
                      " intensities, more than 20000 are not taken");
 }
 
-void checkScanPose(const geometry_msgs::TransformStamped& map_from_scan) {
-  const auto& t = map_from_scan.transform.translation;
-  const auto& q = map_from_scan.transform.rotation;
-  const double largest = std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)});
-  if (!(largest <= path::kLargestCoordinate) || !std::isfinite(q.x + q.y + q.z + q.w))
+void checkScanPose(const Eigen::Isometry3d& map_from_scan) {
+  const Eigen::Vector3d position = map_from_scan.translation();
+  if (!map_from_scan.matrix().allFinite() ||
+      position.cwiseAbs().maxCoeff() > path::kLargestCoordinate)
     throw InputError("tf has its sensor out of this world");
 }
 
-ScanInMap scanInMap(const sensor_msgs::LaserScan& message,
-                    const geometry_msgs::TransformStamped& map_from_scan, bool inf_clears) {
-  const Eigen::Isometry3d pose = isometryOf(map_from_scan.transform);
+ScanInMap scanInMap(const sensor_msgs::LaserScan& message, const Eigen::Isometry3d& map_from_scan,
+                    bool inf_clears) {
   ScanInMap scan;
   scan.time = message.header.stamp.toSec();
-  scan.origin = pose.translation().head<2>();
+  scan.origin = map_from_scan.translation().head<2>();
   for (std::size_t i = 0; i < message.ranges.size(); ++i) {
     const float measured = message.ranges[i];
     const bool hit = isHit(measured, message);
@@ -67,7 +63,7 @@ ScanInMap scanInMap(const sensor_msgs::LaserScan& message,
     const double range = hit ? measured : farthestOf(message);
     const double angle = message.angle_min + static_cast<double>(i) * message.angle_increment;
     const Eigen::Vector3d end =
-        pose * Eigen::Vector3d(range * std::cos(angle), range * std::sin(angle), 0.0);
+        map_from_scan * Eigen::Vector3d(range * std::cos(angle), range * std::sin(angle), 0.0);
     scan.beams.push_back({end.head<2>(), range, hit});
   }
   return scan;

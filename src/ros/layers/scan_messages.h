@@ -1,10 +1,13 @@
 // A laser's scan as rays in the map.
 //
-//   const layers::ScanInMap scan = scanInMap(*message, transforms.transform("map", frame, stamp), inf_clears);
+//   checkScan(*arrival.message);
+//   checkScanPose(arrival.poses[0]);
+//   const layers::ScanInMap scan = scanInMap(*arrival.message, arrival.poses[0], inf_clears);
 #pragma once
 
-#include <geometry_msgs/TransformStamped.h>
 #include <sensor_msgs/LaserScan.h>
+
+#include <Eigen/Geometry>
 
 #include "layers/scan_layer.h"
 
@@ -15,8 +18,8 @@ namespace grid_path_planner::nodes {
 // pointcloud_to_laserscan where nobody set it.
 void checkScan(const sensor_msgs::LaserScan& scan);
 
-// Throws InputError for a transform that is not finite or leads farther than 1e6 m.
-void checkScanPose(const geometry_msgs::TransformStamped& map_from_scan);
+// Throws InputError for a pose that is not finite or farther than 1e6 m.
+void checkScanPose(const Eigen::Isometry3d& map_from_scan);
 
 // The rays of those that measured: a hit for a range above 0, from range_min on and below range_max; a free ray for +inf
 // where `inf_clears`. The others say nothing: NaN, -inf, what is below range_min (sensor_msgs and REP 117), and what
@@ -24,6 +27,6 @@ void checkScanPose(const geometry_msgs::TransformStamped& map_from_scan);
 // the map's plane. Preconditions: checkScan() and checkScanPose() take them; `map_from_scan` is of its
 // stamp.
 layers::ScanInMap scanInMap(const sensor_msgs::LaserScan& scan,
-                            const geometry_msgs::TransformStamped& map_from_scan, bool inf_clears);
+                            const Eigen::Isometry3d& map_from_scan, bool inf_clears);
 
 }  // namespace grid_path_planner::nodes

@@ -106,7 +106,7 @@ TEST_F(LayeredDrive, KeepsOutSlowsDownAndStandsWithoutItsLaser) {
   EXPECT_LT(inside, 0.2 * 1.1);
   EXPECT_GT(inside, 0.15);
   laser_.fallSilent();
-  EXPECT_TRUE(layers_->says("/scan has been silent for longer than source_timeout"));
+  EXPECT_TRUE(layers_->says("/scan has been silent for longer than 0.5 s"));
   EXPECT_TRUE(waitFor([&] { return speedOf(odom_.all().back()) == 0.0; }));
   EXPECT_LT(x(), 29.0) << "before its goal";
 }

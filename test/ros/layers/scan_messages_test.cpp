@@ -26,12 +26,9 @@ sensor_msgs::LaserScan scanOf(std::vector<float> ranges) {
 }
 
 // At x 2, y 3, looking along y.
-geometry_msgs::TransformStamped poseOfLaser() {
-  geometry_msgs::TransformStamped pose;
-  pose.transform.translation.x = 2.0;
-  pose.transform.translation.y = 3.0;
-  pose.transform.rotation.z = pose.transform.rotation.w = std::sqrt(0.5);
-  return pose;
+Eigen::Isometry3d poseOfLaser() {
+  return Eigen::Translation3d(2.0, 3.0, 0.0) *
+         Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ());
 }
 
 TEST(ScanInMap, HasARayForEachThatMeasured) {
@@ -59,10 +56,8 @@ TEST(ScanInMap, NoReturnIsNoHitHoweverItIsSaid) {
       scan.range_min = range_min;
       scan.range_max = 4.0F;
       scan.ranges[135] = 3.0F;  // at 45 degrees
-      geometry_msgs::TransformStamped pose;
-      pose.transform.rotation.w = 1.0;
       checkScan(scan);
-      const ScanInMap in_map = scanInMap(scan, pose, false);
+      const ScanInMap in_map = scanInMap(scan, Eigen::Isometry3d::Identity(), false);
       ASSERT_EQ(in_map.beams.size(), 1U) << no_return;
       EXPECT_TRUE(in_map.beams[0].hit);
       EXPECT_LT((in_map.beams[0].end - 3.0 * std::sqrt(0.5) * Eigen::Vector2d(1.0, 1.0)).norm(),
@@ -91,9 +86,7 @@ TEST(ScanInMap, InfinityIsFreeWhereItIsAskedFor) {
 }
 
 TEST(ScanInMap, ATiltedLaserIsLaidDownOnTheMap) {
-  geometry_msgs::TransformStamped pose;
-  pose.transform.rotation.y = std::sin(M_PI / 6.0);
-  pose.transform.rotation.w = std::cos(M_PI / 6.0);
+  const Eigen::Isometry3d pose(Eigen::AngleAxisd(M_PI / 3.0, Eigen::Vector3d::UnitY()));
   const ScanInMap scan = scanInMap(scanOf({4.0F}), pose, false);
   EXPECT_LT((scan.beams.at(0).end - Eigen::Vector2d(2.0, 0.0)).norm(), 1e-6);
   EXPECT_EQ(scan.beams[0].range, 4.0) << "as it was measured";
@@ -117,11 +110,11 @@ TEST(Scans, ThatCannotBeMeantAreRefused) {
 
 // tf2 takes what is finite, whatever its size.
 TEST(Scans, OfALaserOutOfThisWorldAreRefused) {
-  auto pose = poseOfLaser();
+  Eigen::Isometry3d pose = poseOfLaser();
   EXPECT_EQ(errorText([&] { checkScanPose(pose); }), "");
-  pose.transform.translation.x = 1e200;
+  pose.translation().x() = 1e200;
   EXPECT_TRUE(contains(errorText([&] { checkScanPose(pose); }), "out of this world"));
-  pose.transform.translation.x = std::nan("");
+  pose.translation().x() = std::nan("");
   EXPECT_TRUE(contains(errorText([&] { checkScanPose(pose); }), "out of this world"));
 }
 
