@@ -10,6 +10,8 @@
 
 #include "grid_path_planner/AvoidanceStatus.h"
 
+#include "ros/guard/outgoing/latched_message.h"
+
 namespace grid_path_planner::nodes {
 
 using avoidance::Pilot;
@@ -78,7 +80,7 @@ void FlightPublisher::path(const Pilot& pilot, const std::string& map_frame,
     pose.pose.orientation.w = 1.0;
     message.poses.push_back(pose);
   }
-  path_.publish(message);
+  publishLatched(path_, message);
 }
 
 void FlightPublisher::status(const PilotAnswer& answer, const std::string& map_frame,
@@ -95,7 +97,7 @@ void FlightPublisher::status(const PilotAnswer& answer, const std::string& map_f
   message.clear_path_m = answer.clear_path;
   message.cloud_age_s = answer.frame_age;
   message.waypoint = static_cast<std::uint32_t>(answer.waypoint);
-  status_.publish(message);
+  publishLatched(status_, message);
 }
 
 void FlightPublisher::trajectory(const Pilot& pilot, const PilotAnswer& answer,

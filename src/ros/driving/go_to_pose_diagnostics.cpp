@@ -4,6 +4,7 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/driving/go_to_pose_node.h"
+#include "ros/guard/outgoing/latched_message.h"
 
 namespace grid_path_planner::nodes {
 
@@ -32,7 +33,7 @@ void GoToPoseNode::publishFeedback(const ros::Time& now) {
 }
 
 void GoToPoseNode::publishStatus() {
-  if (ros::Time::isValid()) status_publisher_.publish(status());
+  if (ros::Time::isValid()) publishLatched(status_publisher_, status());
 }
 
 std::string GoToPoseNode::stateName() const {

@@ -15,6 +15,7 @@
 #include "ros/guard/guarded_queue.h"
 #include "ros/guard/incoming/claimed_lengths.h"
 #include "ros/guard/outgoing/diagnostics_timer.h"
+#include "ros/guard/outgoing/latched_message.h"
 #include "ros/guard/parameters.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 
@@ -164,7 +165,7 @@ void GoToPoseNode::onGoal(MoveBaseGoal handle) {
   if (goal_) end(Order::Kind::PREEMPT, "replaced by another goal");
   handle.setAccepted();
   goal_ = Goal{handle, wanted->target_pose, {}, {}};
-  current_goal_publisher_.publish(goal_->asked);
+  publishLatched(current_goal_publisher_, goal_->asked);
   locate();
 }
 
@@ -335,14 +336,14 @@ void GoToPoseNode::drive(Path path) {
   NavigatePathGoal goal;
   goal.path = pathToMessage(path, ros::Time::now());
   driver_.send(goal);
-  path_publisher_.publish(goal.path);
+  publishLatched(path_publisher_, goal.path);
 }
 
 void GoToPoseNode::showNoPath() {
   nav_msgs::Path path;
   path.header.stamp = ros::Time::now();
   path.header.frame_id = frameName(options_.map_frame);
-  path_publisher_.publish(path);
+  publishLatched(path_publisher_, path);
 }
 
 void GoToPoseNode::end(Order::Kind kind, const std::string& sentence) {

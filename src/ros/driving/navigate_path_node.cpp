@@ -17,6 +17,7 @@
 #include "ros/guard/guarded_queue.h"
 #include "ros/guard/incoming/advertised_service.h"
 #include "ros/guard/incoming/claimed_lengths.h"
+#include "ros/guard/outgoing/latched_message.h"
 #include "ros/guard/parameters.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 #include "ros/guard/scheduling/log_throttle.h"
@@ -395,7 +396,7 @@ bool NavigatePathNode::answer(const Answer& answer, std_srvs::Trigger::Response&
 
 void NavigatePathNode::takeReports() {
   for (const DriveReport& report : loop_->takeReports()) {
-    if (report.waypoint) waypoint_publisher_.publish(*report.waypoint);
+    if (report.waypoint) publishLatched(waypoint_publisher_, *report.waypoint);
     if (!report.note.empty()) ROS_WARN_STREAM(report.note);
     if (!report.event) continue;
     logEvent(*report.event);

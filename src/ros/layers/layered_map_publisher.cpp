@@ -4,6 +4,8 @@
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
 
+#include "ros/guard/outgoing/latched_message.h"
+
 namespace grid_path_planner::nodes {
 
 using grid::CellRect;
@@ -17,7 +19,8 @@ void LayeredMapPublisher::publish(LayeredMap& map, const std::string& frame_id,
                                   const ros::Time& newest, double full_map_period) {
   owes_limits_ = map.takeNewSpeedLimits() || owes_limits_;
   if (owes_limits_)
-    speed_limits_.publish(occupancyToMessage(map.speedLimits(), frame_id, ros::Time::now()));
+    publishLatched(speed_limits_,
+                   occupancyToMessage(map.speedLimits(), frame_id, ros::Time::now()));
   owes_limits_ = false;
   if (topic_.hasSubscribers())
     publishMap(map, frame_id, newest, full_map_period);

@@ -8,6 +8,8 @@
 
 #include "vision/marker_picture.h"
 
+#include "ros/guard/outgoing/latched_message.h"
+
 namespace grid_path_planner::nodes {
 
 using geometry_msgs::PoseWithCovarianceStamped;
@@ -79,7 +81,7 @@ void MarkerPublisher::publishPanel(const vision::PanelPose& panel, const std::st
                                    const ros::Time& stamp) const {
   const MountedPose pose{panel.map_from_panel.translation(),
                          Eigen::Quaterniond(panel.map_from_panel.linear()), panel.covariance};
-  panel_.publish(messageOf(pose, map_frame, stamp));
+  publishLatched(panel_, messageOf(pose, map_frame, stamp));
 }
 
 void MarkerPublisher::publish(const MarkerImage& image, const MarkerAnswer& answer,

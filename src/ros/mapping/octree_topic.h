@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "grid_path_planner/mapping/map_model.h"
+#include "ros/guard/outgoing/latched_message.h"
 
 namespace grid_path_planner::nodes {
 
@@ -22,7 +23,7 @@ struct OctreeTopic {
   }
   template <class Message>
   void publish(const Message& message, const mapping::MapModel& map) {
-    publisher.publish(message);
+    publishLatched(publisher, message);
     sent_revision = map.revision();
   }
 };

@@ -119,7 +119,7 @@ void MapTopic::send(const nav_msgs::OccupancyGrid& map) {
   nav_msgs::OccupancyGrid place = placeOf(map);
   const bool elsewhere = place_.info.width > 0 && place != place_;
   if (elsewhere && !map.header.stamp.isZero()) updates_.publish(announcementOf(map));
-  maps_.publish(map);
+  publishLatched(maps_, map);
   place_ = std::move(place);
   std::lock_guard<std::mutex> lock(mutex_);
   updated_ = false;

@@ -8,6 +8,7 @@
 #include "ros/guard/ending/end_of_node.h"
 #include "ros/guard/incoming/advertised_service.h"
 #include "ros/guard/network_text.h"
+#include "ros/guard/outgoing/latched_message.h"
 #include "ros/guard/parameters.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 #include "ros/guard/scheduling/log_throttle.h"
@@ -97,8 +98,8 @@ void MapPublisherNode::publishOnceThereIsTime() {
     return;
   }
   message_ = occupancyToMessage(map_, frameName(options_.frame_id), ros::Time::now());
-  map_publisher_.publish(message_);
-  metadata_publisher_.publish(message_.info);
+  publishLatched(map_publisher_, message_);
+  publishLatched(metadata_publisher_, message_.info);
   timer_.stop();  // at last: where there was no memory for all of it, it is tried again
   ROS_INFO_STREAM("Published " << options_.filename << ": " << map_.width() << "x" << map_.height()
                                << " cells of " << map_.geometry().resolution() << " m on "

@@ -5,6 +5,8 @@
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/ros/conversions.h"
 
+#include "ros/guard/outgoing/latched_message.h"
+
 namespace grid_path_planner::nodes {
 
 using path::Path;
@@ -41,12 +43,12 @@ PlanPublisher::PlanPublisher(ros::NodeHandle nh)
 void PlanPublisher::publishPath(const Path& path, const ros::Time& goal_given) {
   nav_msgs::Path message = pathToMessage(path, ros::Time::now());
   if (!message.poses.empty()) message.poses.back().header.stamp = goal_given;
-  path_.publish(message);
+  publishLatched(path_, message);
 }
 
 void PlanPublisher::publishSearch(ShownPlan shown) {
   shown.statistics.header.stamp = ros::Time::now();
-  statistics_.publish(shown.statistics);
+  publishLatched(statistics_, shown.statistics);
   std::lock_guard<std::mutex> lock(mutex_);
   unseen_.reset();
   if (markers_.getNumSubscribers() > 0)

@@ -37,7 +37,7 @@ void RectanglePublisher::clear() {
   worker_.post(
       [this](const StopSource&) {
         forgetLatched(map_);
-        markers_.publish(rectangleMarkers({}, {}, "map", ros::Time::now()));
+        publishLatched(markers_, rectangleMarkers({}, {}, "map", ros::Time::now()));
       },
       kSlot);
 }
@@ -71,8 +71,8 @@ void RectanglePublisher::cutAndTell(std::shared_ptr<const CostGrid> costs,
   limits.bytes = memory_limit;
   const std::vector<CellRect> rectangles = largestFirst(free, limits, stop);
   const ros::Time now = ros::Time::now();
-  map_.publish(rectanglesToMessage(geometry, rectangles, frame_id, now));
-  markers_.publish(rectangleMarkers(geometry, rectangles, frame_id, now));
+  publishLatched(map_, rectanglesToMessage(geometry, rectangles, frame_id, now));
+  publishLatched(markers_, rectangleMarkers(geometry, rectangles, frame_id, now));
 }
 
 }  // namespace grid_path_planner::nodes

@@ -7,6 +7,7 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/guard/incoming/claimed_lengths.h"
 #include "ros/guard/master/xmlrpc_call.h"
+#include "ros/guard/outgoing/latched_message.h"
 
 namespace grid_path_planner::nodes {
 
@@ -175,7 +176,7 @@ void PlanPanel::draw() {
   drawn_ = model_.revision();
   visualization_msgs::MarkerArray all = panelMarkers(model_.path(), compared_);
   all.markers.insert(all.markers.end(), explanation_.markers.begin(), explanation_.markers.end());
-  markers_.publish(all);
+  publishLatched(markers_, all);
 }
 
 void PlanPanel::load(const rviz::Config& config) {

@@ -4,6 +4,8 @@
 #include <std_msgs/String.h>
 #include <std_msgs/UInt32.h>
 
+#include "ros/guard/outgoing/latched_message.h"
+
 namespace grid_path_planner::nodes {
 
 using simulation::Vehicle;
@@ -25,11 +27,11 @@ void ContactPublisher::publish(const Vehicle& vehicle) {
   published_ = vehicle.contacts();
   std_msgs::UInt32 count;
   count.data = static_cast<std::uint32_t>(published_);
-  count_publisher_.publish(count);
+  publishLatched(count_publisher_, count);
   if (!is_new) return;
   std_msgs::String name;
   name.data = vehicle.touched();
-  name_publisher_.publish(name);
+  publishLatched(name_publisher_, name);
   ROS_WARN_STREAM("The vehicle has run into " << name.data << ", contacts so far: " << count.data);
 }
 

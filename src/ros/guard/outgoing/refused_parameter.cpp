@@ -3,6 +3,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <std_msgs/String.h>
 
+#include "ros/guard/outgoing/latched_message.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
@@ -26,7 +27,7 @@ void RefusedParameter::tell(const std::string& sentence) {
   sentence_ = sentence;
   std_msgs::String message;
   message.data = sentence;
-  publisher_.publish(message);
+  publishLatched(publisher_, message);
 }
 
 void RefusedParameter::publishDiagnostics() {

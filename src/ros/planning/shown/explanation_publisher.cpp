@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "ros/guard/outgoing/latched_message.h"
 #include "ros/messages/wrapped_text.h"
 
 namespace grid_path_planner::nodes {
@@ -71,7 +72,7 @@ void ExplanationPublisher::publish(const Explanation& explanation, const std::st
     marker.header.stamp = ros::Time::now();
   }
   shown_ = true;
-  publisher_.publish(array);
+  publishLatched(publisher_, array);
 }
 
 void ExplanationPublisher::clear() {
@@ -79,7 +80,7 @@ void ExplanationPublisher::clear() {
   MarkerArray array;
   array.markers.resize(1);
   array.markers[0].action = Marker::DELETEALL;
-  publisher_.publish(array);
+  publishLatched(publisher_, array);
 }
 
 }  // namespace grid_path_planner::nodes
