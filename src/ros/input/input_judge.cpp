@@ -148,6 +148,14 @@ void InputJudge::makeReady(Item& item, const Moment& now) {
   const ros::Time stamp = std::min(item.header.stamp, now.time);
   ready_.push_back(std::move(item));
   newest = stamp;
+  if (rules_.order != InputRules::Order::NEWEST) return;
+  const auto last = std::prev(ready_.end());
+  const auto older = std::find_if(ready_.begin(), last, [&](const Item& other) {
+    return other.header.frame == last->header.frame;
+  });
+  if (older == last) return;
+  refused({kOvertaken, "a newer one can be used"}, &older->header, now);
+  ready_.erase(older);
 }
 
 bool InputJudge::place(const Place& place, const Moment& now) {

@@ -27,7 +27,7 @@ struct InputRules {
     ANY,     // each is used as soon as tf leads to its frame, whatever was used before
     RISING,  // by stamp: each waits for the one before, and until ROS time is at its stamp; one that is not newer than the
              // last of its frame is refused
-    NEWEST,  // not newer is refused too; one that waits for tf is dropped where a newer one can be used
+    NEWEST,  // not newer is refused too; one that waits is dropped where a newer one of its frame can be used
   };
   enum class Silence {
     BY_ARRIVAL,  // since the last that was used came, by the wall clock: it goes on where /clock stands

@@ -402,9 +402,17 @@ TEST_F(CrowdTest, TheOldestIsKeptWhichTfReachesFirst) {
   for (const Order order : {Order::ANY, Order::RISING, Order::NEWEST}) {
     InputJudge judge("/topic", rules(order, 3), momentAt(1.0, 0.0));
     for (int i = 0; i < 10; ++i) add(judge, kTestTime - 5.0 + 0.1 * i, "sensor");
+    judge.place(
+        [](auto&, auto&, const ros::Time& stamp) {
+          if (stamp.toSec() > kTestTime - 4.95) throw std::runtime_error("not yet");
+          return Eigen::Isometry3d::Identity();
+        },
+        momentAt(kTestTime, 0.0));
+    const auto first = judge.take();
+    ASSERT_TRUE(first);
+    EXPECT_NEAR(first->header.stamp.toSec(), kTestTime - 5.0, 1e-6);
     const std::vector<double> stamps = taken(judge);
-    ASSERT_EQ(stamps.size(), 3U);
-    EXPECT_NEAR(stamps.front(), kTestTime - 5.0, 1e-6);
+    ASSERT_EQ(stamps.size(), order == Order::NEWEST ? 1U : 2U);
     EXPECT_NEAR(stamps.back(), kTestTime - 4.1, 1e-6);
   }
 }
@@ -443,6 +451,21 @@ TEST_F(CrowdTest, OfThoseThatMayBeUsedTheNewestAreKept) {
   ASSERT_EQ(stamps.size(), 2U);
   EXPECT_NEAR(stamps.front(), kTestTime - 0.3, 1e-6);
   EXPECT_EQ(judge.counts().refused.at("faster than they are used"), 2U);
+}
+
+// Whoever asks seldom is given none that is old already, and is not told that it is slow.
+TEST_F(CrowdTest, OfAFrameWhoseNewestIsAskedForNoOlderOneIsUsed) {
+  InputJudge judge("/topic", rules(Order::NEWEST, 2), momentAt(1.0, 0.0));
+  for (const double age : {0.5, 0.4, 0.3}) {
+    add(judge, kTestTime - age, "front");
+    add(judge, kTestTime - age - 0.01, "rear");
+    judge.place(tfThat(true), momentAt(kTestTime, 0.0));
+  }
+  const std::vector<double> stamps = taken(judge);
+  ASSERT_EQ(stamps.size(), 2U) << "of each frame";
+  for (const double stamp : stamps) EXPECT_NEAR(stamp, kTestTime - 0.305, 0.006);
+  EXPECT_EQ(judge.counts().refused.at("overtaken by a newer one"), 4U);
+  EXPECT_EQ(judge.counts().last_refusal, "");
 }
 
 // Two lasers on one topic, at the same time: one of them was never used.
