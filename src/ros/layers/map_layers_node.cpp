@@ -108,7 +108,7 @@ void addTo(diagnostic_updater::DiagnosticStatusWrapper& status, const InputBase&
 
 }  // namespace
 
-// Of a scan that was laid in part nobody knows what is in the map: as after clear_scan.
+// Of a scan that was laid in part nobody knows what is in the map: scans begin anew with the static map that is laid again.
 template <class Work>
 void MapLayersNode::lay(Work work) {
   try {
@@ -117,7 +117,6 @@ void MapLayersNode::lay(Work work) {
     throw;
   } catch (...) {
     lays_again_ = true;
-    beginScansAnew("came before an error");
     throw;
   }
 }
