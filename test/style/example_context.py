@@ -117,9 +117,8 @@ CONTEXT = {
     "avoidance/pilot.h": """extern PilotOptions options; extern VehiclePose pose; extern double time;
         extern base::BodyVelocity velocity; extern Frame frame; struct AVehicle { void command(const base::BodyVelocity&); };
         extern AVehicle vehicle;""",
-    "cloud_frames.h": """#include <sensor_msgs/PointCloud2.h>
-        extern sensor_msgs::PointCloud2::ConstPtr cloud; extern FrameTransforms transforms; extern ros::Time now;
-        extern avoidance::PilotOptions options; using avoidance::Frame; void use(const Frame&); void stand();""",
+    "cloud_frames.h": """extern ros::NodeHandle nh; extern FrameTransforms transforms; extern LocalPlannerOptions options;
+        using avoidance::Frame; void use(const Frame&); void stand(const std::string&);""",
     "flight_action.h": """extern ros::NodeHandle nh; extern NodeFiles files; extern avoidance::PilotAnswer answer;
         extern avoidance::VehiclePose pose; path::Path fly(const path::Path&, bool); void cancel(const std::string&);
         path::Path read(const nav_msgs::Path&);""",

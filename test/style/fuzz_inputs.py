@@ -60,11 +60,12 @@ INPUTS = {
     "ros/adapters/planner_adapter.cpp": {"AdapterOptions": "vehicle_config_message"},
     "ros/avoidance/flight_action.h": {"NavigatePathServer": Part(("path_message frame_messages file_name",
                                                                   "its path and its name of a file"))},
+    "ros/avoidance/cloud_frames.cpp": {"sensor_msgs::CameraInfo": "local_planner_messages"},
+    "ros/avoidance/cloud_frames.h": {"sensor_msgs::PointCloud2": "local_planner_messages"},
     "ros/avoidance/flight_commander.cpp": {"std_msgs::Bool": HANDED_OVER},
     "ros/avoidance/local_planner_node.cpp": {
         "LocalPlannerOptions": "vehicle_config_message", "geometry_msgs::PoseStamped": "frame_messages",
         "nav_msgs::Odometry": "odometry_message", "nav_msgs::Path": "local_planner_messages given_goals frame_messages",
-        "sensor_msgs::CameraInfo": "local_planner_messages", "sensor_msgs::PointCloud2": "local_planner_messages",
         "std_srvs::Trigger": NO_REQUEST},
     "ros/guard/action/action_caller.h": {
         "ActionFeedback": Part(("claimed_lengths go_to_pose_messages", "those of both actions")),

@@ -30,7 +30,7 @@ void LocalPlannerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("newest cloud (s old)", answer_.frame_age);
   status.add("nearest point (m)", answer_.clearance);
   status.add("open path (m)", answer_.clear_path);
-  status.add("problems of the newest clouds", clouds_.problems());
+  clouds_.addTo(status);
   status.add("braked for want of a newer plan", commander_.overdue());
   status.add("refused messages on stop and manual_control", commander_.refused());
   status.add("scheduling of commands", commander_.scheduling());

@@ -73,7 +73,7 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
       commands_(private_nh.getNamespace(), commandsOf(nh_, options_)),
       transforms_(nh),
       pilot_(options_.pilot),
-      clouds_(resolvedTopics(nh_, options_)),
+      clouds_(nh_, options_, transforms_),
       publisher_(nh_),
       views_(nh_),
       hold_([this](unsigned handovers) { noteHandover(handovers); }),
@@ -88,7 +88,6 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
     ROS_INFO("Built without the component mapping: there is no map to plan on without progress");
   if (!options_.config_filename.empty()) flyFile(files);
   subscribe();
-  subscribeClouds();
   offerServices(private_nh);
   reconfigurable_ = std::make_unique<Reconfigurable<LocalPlannerConfig, LocalPlannerOptions>>(
       private_nh, options_, [this](const LocalPlannerOptions& options) { use(options); });
@@ -113,7 +112,6 @@ LocalPlannerNode::~LocalPlannerNode() {
   stop();
   // No handover is noted any more, and what waits for the action does not outlive it.
   nh_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
-  for (ros::Subscriber& clouds : cloud_subscribers_) clouds.shutdown();
   for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
   reconfigurable_.reset();
@@ -154,19 +152,6 @@ void LocalPlannerNode::noteHandover(unsigned handovers) {
 
 void LocalPlannerNode::endGoalsUntilNow() {
   given_goals_.endAllUntil(ros::Time::now());
-}
-
-void LocalPlannerNode::subscribeClouds() {
-  using CloudEvent = ros::MessageEvent<const sensor_msgs::PointCloud2>;
-  const std::vector<std::string> topics = cloudTopics(options_);
-  for (std::size_t i = 0; i < topics.size(); ++i) {
-    cloud_subscribers_.push_back(subscribeBounded<sensor_msgs::PointCloud2, const CloudEvent&>(
-        nh_, topics[i], {kAnyNumber, kMostWaitingBytes / topics.size()},
-        [this, i](const CloudEvent& event) { clouds_.add(i, event.getMessage()); }));
-    subscribers_.push_back(subscribeChecked<sensor_msgs::CameraInfo>(
-        nh_, cameraTopic(topics[i]), 1,
-        [this, i](const sensor_msgs::CameraInfo& camera) { clouds_.setCamera(i, camera); }));
-  }
 }
 
 void LocalPlannerNode::subscribe() {
@@ -223,6 +208,7 @@ void LocalPlannerNode::use(LocalPlannerOptions options) {
         "changed while the node runs");
   pilot_.setOptions(options.pilot);
   commander_.setOptions(options);
+  clouds_.setOptions(options);
   const bool other_rate = options.control_rate != options_.control_rate;
   options_ = options;
   if (other_rate) startTimer();
@@ -242,7 +228,6 @@ void LocalPlannerNode::timeWentBack(double seconds) {
   ROS_WARN_STREAM("ROS time went back by "
                   << seconds << " s: the flight is cancelled, and what was seen is forgotten");
   if (flies_) pilot_.cancel("time went back by " + std::to_string(seconds) + " s");
-  clouds_.clear();
   map_.forget();
   odometry_.reset();
   given_goals_.timeWentBack();
@@ -329,19 +314,19 @@ PilotInput LocalPlannerNode::input(const ros::Time& now) {
     input.pose_problem = error.what();
   }
   input.hold = hold_.why(options_.master_timeout);
-  takeFrames(input, now);
+  takeFrames(input);
   good_for_ = std::min(pose_for, options_.pilot.cloud_timeout - clouds_.age(now));
   return input;
 }
 
 // All but the newest are seen first.
-void LocalPlannerNode::takeFrames(PilotInput& input, const ros::Time& now) {
-  frames_ = clouds_.take(transforms_, options_.map_frame, now, options_.pilot);
+void LocalPlannerNode::takeFrames(PilotInput& input) {
+  frames_ = clouds_.take(options_.pilot);
   for (std::size_t i = 0; i + 1 < frames_.size(); ++i) pilot_.see(frames_[i]);
   if (!frames_.empty()) input.frame = &frames_.back();
   if (options_.pilot.recover)
     for (const avoidance::Frame& frame : frames_) map_.see(frame, options_.pilot);
-  input.cloud_problem = clouds_.silence(now, options_.pilot.cloud_timeout);
+  input.cloud_problem = clouds_.problem().value_or("");
 }
 
 void LocalPlannerNode::control() {

@@ -45,8 +45,6 @@
 #include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
 #include <ros/steady_timer.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/PointCloud2.h>
 #include <std_srvs/Trigger.h>
 
 #include <memory>
@@ -63,7 +61,6 @@
 #include "ros/avoidance/local_planner_options.h"
 #include "ros/avoidance/logged_pilot.h"
 #include "ros/avoidance/map_planner.h"
-#include "ros/guard/incoming/bounded_subscription.h"
 #include "ros/guard/master/command_claim.h"
 #include "ros/guard/master/other_commanders.h"
 #include "ros/guard/node_files.h"
@@ -96,7 +93,6 @@ class LocalPlannerNode {
 
  private:
   void subscribe();
-  void subscribeClouds();
   void startLog(const NodeFiles& files);
   void flyFile(const NodeFiles& files);
   FlightAction::Hands hands();
@@ -122,7 +118,7 @@ class LocalPlannerNode {
   void tick(const ros::Time& now);
   base::BodyVelocity velocityAt(const ros::Time& now) const;
   avoidance::PilotInput input(const ros::Time& now);
-  void takeFrames(avoidance::PilotInput& input, const ros::Time& now);
+  void takeFrames(avoidance::PilotInput& input);
   bool hasFlight() const;
   void publish(const ros::Time& now);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -151,7 +147,6 @@ class LocalPlannerNode {
 
   ros::Publisher cancelled_publisher_;
   std::vector<ros::Subscriber> subscribers_;
-  std::vector<ros::Subscriber> cloud_subscribers_;
   std::vector<ros::ServiceServer> services_;
   std::unique_ptr<FlightAction> action_;
   diagnostic_updater::Updater diagnostics_;

@@ -51,13 +51,6 @@ std::vector<std::string> cloudTopics(const LocalPlannerOptions& options) {
   return topics;
 }
 
-std::vector<std::string> resolvedTopics(const ros::NodeHandle& nh,
-                                        const LocalPlannerOptions& options) {
-  std::vector<std::string> topics;
-  for (const std::string& topic : cloudTopics(options)) topics.push_back(nh.resolveName(topic));
-  return topics;
-}
-
 std::string cameraTopic(const std::string& cloud_topic) {
   return cloud_topic.substr(0, cloud_topic.rfind('/') + 1) + "camera_info";
 }

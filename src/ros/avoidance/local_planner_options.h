@@ -1,8 +1,6 @@
 // The parameters of the node `local_planner`.
 #pragma once
 
-#include <ros/node_handle.h>
-
 #include <string>
 #include <vector>
 
@@ -87,9 +85,6 @@ void nameFrames(LocalPlannerOptions& options);
 
 // Those of cloud_topics, or `points`.
 std::vector<std::string> cloudTopics(const LocalPlannerOptions& options);
-// The same, resolved.
-std::vector<std::string> resolvedTopics(const ros::NodeHandle& nh,
-                                        const LocalPlannerOptions& options);
 // camera_info beside a topic of clouds.
 std::string cameraTopic(const std::string& cloud_topic);
 

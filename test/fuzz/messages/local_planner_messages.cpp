@@ -4,6 +4,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include <cmath>
+#include <optional>
 
 #include "fuzz/fuzz_target.h"
 #include "fuzz/messages/fuzz_messages.h"
@@ -49,20 +50,13 @@ std::vector<std::string> seedsOfFlights() {
           bytesOf(blind) + bytesOf(path) + bytesOf(cloud)};
 }
 
-// As the node takes them, of a camera that tf has in the vehicle's middle.
-std::vector<avoidance::Frame> framesOf(const sensor_msgs::CameraInfo& camera,
-                                       const sensor_msgs::PointCloud2& cloud) {
-  nodes::FrameLookup transforms;
-  geometry_msgs::TransformStamped place;
-  place.header.frame_id = "map";
-  place.child_frame_id = "camera";
-  place.transform.rotation.w = 1.0;
-  transforms.buffer().setTransform(place, "fuzz", true);
-  setTime(kNowOfClouds);
-  nodes::CloudFrames frames({"points"});
-  frames.setCamera(0, camera);
-  frames.add(0, boost::make_shared<sensor_msgs::PointCloud2>(cloud));
-  return frames.take(transforms, "map", kNowOfClouds, {});
+// As the node takes it, of a camera that tf has in the vehicle's middle; none where it is refused.
+std::optional<avoidance::Frame> frameFrom(const sensor_msgs::CameraInfo& camera,
+                                          sensor_msgs::PointCloud2 cloud) {
+  cloud.header.stamp = kNowOfClouds;
+  std::optional<avoidance::Frame> frame;
+  mayRefuse([&] { frame = nodes::frameOf(cloud, Eigen::Isometry3d::Identity(), camera, {}); });
+  return frame;
 }
 
 FUZZ_TARGET(local_planner_messages, seedsOfFlights) {
@@ -79,12 +73,12 @@ FUZZ_TARGET(local_planner_messages, seedsOfFlights) {
       points.push_back(pose.position);
     pilot.setPath(points);
   });
-  const std::vector<avoidance::Frame> frames = framesOf(*camera, *cloud);
+  const std::optional<avoidance::Frame> frame = frameFrom(*camera, *cloud);
   for (int i = 0; i < 2; ++i) {
     avoidance::PilotInput given;
     given.time = kNowOfClouds.toSec() + 0.1 * i;
     given.pose = avoidance::VehiclePose{};
-    if (!frames.empty()) given.frame = &frames.back();
+    if (frame) given.frame = &*frame;
     const base::BodyVelocity command = pilot.update(given).velocity;
     mustHold(command.isFinite(), "commands are finite");
     mustHold(std::hypot(command.surge, command.sway) <= pilot.options().max_speed + 1e-9,

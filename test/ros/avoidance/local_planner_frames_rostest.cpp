@@ -3,6 +3,7 @@
 // By the code: a file in another frame was flown as if it were in map_frame; a path was laid there by the last transform that
 // tf had, however long localization was dead; a goal in the vehicle's frame where the vehicle was when it came; a sensor
 // that saw nothing any more counted as one that looks, while another one did.
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <gtest/gtest.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -16,6 +17,7 @@
 #include "grid_path_planner/NavigatePathActionGoal.h"
 #include "grid_path_planner/NavigatePathActionResult.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "ros/support/control_thread.h"
 #include "ros/support/flight_fixture.h"
 #include "support/temporary_folder.h"
 
@@ -131,9 +133,18 @@ TEST_F(FramesTest, ASensorThatSeesNothingAnyMoreIsMissedThoughAnotherSees) {
   EXPECT_TRUE(waitFor([&] {
     see(std::numeric_limits<float>::quiet_NaN());
     return !drivesNow() &&
-           said().find("NO_CLOUD: the newest cloud of /front/points") != std::string::npos;
+           said().find(
+               "NO_CLOUD: nothing that can be used has come on /front/points for longer "
+               "than 1 s: it holds no point within range_min and range_max") != std::string::npos;
   })) << said();
-  EXPECT_NE(said().find("holds no point"), std::string::npos) << said();
+  const Latest<diagnostic_msgs::DiagnosticArray> diagnostics(nh_, "/diagnostics");
+  EXPECT_TRUE(waitFor([&] {
+    see(std::numeric_limits<float>::quiet_NaN());
+    return test::valueIn(diagnostics.all(), "/front/points").find("holds no point") !=
+           std::string::npos;
+  }));
+  EXPECT_EQ(test::valueIn(diagnostics.all(), "/points"), "taken");
+  EXPECT_TRUE(pilot_->hasSaid("A message on /front/points is refused: it holds no point"));
   EXPECT_TRUE(waitFor([&] {
     see(9.0F);
     return drivesNow();
