@@ -1,9 +1,7 @@
 #include "ros/guard/node_time.h"
 
-#include <chrono>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "ros/guard/guarded_queue.h"
@@ -75,12 +73,6 @@ class Jumps {
 
 Jumps jumps_of_process;
 
-std::int64_t steadyNow() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
 }  // namespace
 
 NodeTime::NodeTime() : jumps_(jumps_of_process.notice().jumps), told_(jumps_.load()) {
@@ -149,17 +141,6 @@ void NodeTime::tell(double seconds) const {
     }
     next = listeners.upper_bound(number);
   }
-}
-
-ros::Time NodeTime::nowAfter(const ros::Time& stamp, double ahead) {
-  constexpr std::int64_t kLongest = 50'000'000, kPause = 1'000'000'000;  // ns
-  const std::int64_t begin = steadyNow();
-  const auto is_late = [&] { return secondsBetween(now(), stamp) > ahead; };
-  if (!ros::Time::isSimTime() || begin < next_wait_) return now();
-  while (is_late() && steadyNow() < begin + kLongest)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  if (is_late()) next_wait_ = steadyNow() + kPause;
-  return now();
 }
 
 }  // namespace grid_path_planner::nodes

@@ -13,7 +13,7 @@
 // the order of adding; no callback begins at the new time before all have returned; one that throws keeps no other from being
 // told. A jump is found by whichever thread of the process reads the time first, and told to each queue that there was one,
 // though time has passed the old one again when its next callback comes; jumps between which no callback of a queue began are
-// one to it. What takes no lock but where there is a jump to tell: all but onJumpBack() and nowAfter().
+// one to it. What takes no lock but where there is a jump to tell: all but onJumpBack().
 // Not guaranteed: that a callback that runs while time goes back does not read the new time; jumps of less than a microsecond.
 // A listener does not wait for another callback of its queue.
 #pragma once
@@ -62,11 +62,6 @@ class NodeTime {
   // listeners may be called in any.
   void tellJumps();
 
-  // With /clock ROS time comes by a topic of its own, and messages overtake it, the farther the faster a bag is played. ROS
-  // time; where `stamp` is more than `ahead` (s) after it, it is waited for: 50 ms of the wall clock at most, and not for a
-  // second after that was in vain, as for a stamp that is wrong.
-  ros::Time nowAfter(const ros::Time& stamp, double ahead);
-
  private:
   void tell(double seconds) const;
 
@@ -74,7 +69,6 @@ class NodeTime {
   std::atomic<unsigned> told_;           // jumps_, once all listeners have returned
   std::atomic<std::uint64_t> since_{0};  // us; 0: there is no time yet
   std::atomic<bool> went_back_{false};
-  std::atomic<std::int64_t> next_wait_{0};  // ns of the steady clock
 
   struct Listeners {
     std::recursive_mutex mutex;  // held while they are told

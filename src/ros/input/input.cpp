@@ -17,7 +17,7 @@ constexpr double kPeriod = 0.01;            // s of the wall clock between two q
 constexpr std::size_t kMostInRoscpp = 100;  // messages, until the queue's thread has looked at them
 
 InputJudge::Moment momentAt(const ros::Time& time) {
-  return {time, std::chrono::steady_clock::now()};
+  return {time, std::chrono::steady_clock::now(), ros::Time::isSimTime()};
 }
 
 }  // namespace
@@ -40,7 +40,6 @@ InputBase::InputBase(const ros::NodeHandle& nh, const std::string& topic, const 
       transforms_(transforms),
       time_(NodeTime::of(nh)),
       on_ready_(std::move(on_ready)),
-      most_ahead_(rules.most_ahead),
       judge_(topic_, rules, now(), [](const std::string& sentence) { ROS_WARN_STREAM(sentence); }),
       timer_(guardedTimer(nh, kPeriod, [this] { poll(); })),
       jumps_(time_.onJumpBack([this](double seconds) { timeWentBack(seconds); })) {
@@ -54,13 +53,13 @@ void InputBase::shutdown() {
 }
 
 void InputBase::timeWentBack(double seconds) {
-  ROS_WARN_STREAM("ROS time went back by " << seconds << " s: what waits on " << topic_
-                                           << " is forgotten");
+  if (judge_.counts().waiting > 0)
+    ROS_WARN_STREAM("ROS time went back by " << seconds << " s: what waits on " << topic_
+                                             << " is forgotten");
   beginAnew("ROS time went back");
 }
 
 void InputBase::setRules(const InputRules& rules) {
-  most_ahead_ = rules.most_ahead;
   judge_.setRules(rules);
 }
 
@@ -89,7 +88,8 @@ std::optional<std::string> InputBase::add(const ros::Time& given, const std::str
                                           std::size_t bytes,
                                           boost::shared_ptr<const void> message) {
   const ros::Time stamp = normalized(given);
-  const auto moment = momentAt(time_.isThere() ? time_.nowAfter(stamp, most_ahead_) : ros::Time());
+  if (judge_.waits()) poll();  // those that came before it are used before it
+  const auto moment = now();
   try {
     if (auto why = judge_.add({stamp, frameName(frame), bytes}, std::move(message), moment))
       return why;

@@ -99,7 +99,6 @@ class InputBase {
   const FrameLookup& transforms_;
   NodeTime& time_;
   const std::function<void()> on_ready_;
-  double most_ahead_;
   InputJudge judge_;
   ros::SteadyTimer timer_;  // runs while something waits
   std::shared_ptr<void> jumps_;

@@ -93,7 +93,7 @@ std::optional<InputJudge::Refusal> InputJudge::judged(const InputHeader& header,
     return Refusal{"no frame", "it names no frame"};
   if (header.stamp.isZero()) return Refusal{"no stamp", "it has no stamp"};
   const double ahead = secondsBetween(now.time, header.stamp);
-  if (ahead > rules_.most_ahead)
+  if (ahead > (now.by_clock_topic ? std::max(kMostAhead, rules_.most_ahead) : rules_.most_ahead))
     return Refusal{kAhead, "it is stamped " + secondsText(ahead) +
                                " ahead of ROS time, more than " +
                                base::decimalText(rules_.most_ahead) + " s" + clocksText(ahead)};
@@ -110,6 +110,12 @@ std::optional<InputJudge::Refusal> InputJudge::judgedByOrder(const InputHeader& 
   return Refusal{kNotNewer, "it is not newer than the one before"};
 }
 
+bool InputJudge::isEarly(const InputHeader& header, const Moment& now) const {
+  const double ahead = secondsBetween(now.time, header.stamp);
+  return (rules_.order == InputRules::Order::RISING && ahead > 0.0) ||
+         (now.by_clock_topic && ahead > rules_.most_ahead);
+}
+
 std::optional<std::string> InputJudge::add(InputHeader header,
                                            boost::shared_ptr<const void> message,
                                            const Moment& now) {
@@ -121,8 +127,7 @@ std::optional<std::string> InputJudge::add(InputHeader header,
     header.stamp = now.time;
   if (const auto why = judged(header, now)) return refused(*why, &header, now);
   Item item{std::move(header), std::move(message), {}};
-  if (rules_.frames.empty() &&
-      !(rules_.order == InputRules::Order::RISING && item.header.stamp > now.time))
+  if (rules_.frames.empty() && waiting_.empty() && !isEarly(item.header, now))
     makeReady(item, now);
   else
     wait(std::move(item), now.wall);
@@ -180,9 +185,9 @@ bool InputJudge::placed(Waiting& waiting, const Place& place, const Moment& now)
     return true;
   }
   Refusal late{kNoTransform, ""};
-  const double ahead = secondsBetween(now.time, item.header.stamp);
-  if (rules_.order == InputRules::Order::RISING && ahead > 0.0)
-    late = {kAhead, "it is stamped " + secondsText(ahead) + " ahead of ROS time"};
+  if (isEarly(item.header, now))
+    late = {kAhead, "it is stamped " + secondsText(secondsBetween(now.time, item.header.stamp)) +
+                        " ahead of ROS time"};
   else if (findPoses(item, rules_.frames, place, late.sentence))
     return makeReady(item, now), true;
   trouble_ = late.sentence;

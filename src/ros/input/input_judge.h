@@ -8,7 +8,9 @@
 // Guaranteed: a message is used, refused with its reason, or waits; of each counts() has the number. At most most_waiting
 // wait for tf and as many to be taken, with at most most_bytes, or one. Of too many that wait for tf, one of the frame goes
 // that has the most, and not the oldest: it is the next that tf reaches, and where tf is late always the oldest went, none
-// would ever be used. Of those to be taken the oldest goes. Thread-safe.
+// would ever be used. Of those to be taken the oldest goes. With /clock, ROS time comes by a topic of its own, and messages
+// overtake it, the farther the faster a bag is played: there one that is ahead by more than most_ahead waits, up to tf_wait.
+// Thread-safe.
 #pragma once
 
 #include <ros/time.h>
@@ -51,6 +53,7 @@ class InputJudge {
   struct Moment {
     ros::Time time;
     std::chrono::steady_clock::time_point wall;
+    bool by_clock_topic = false;  // ROS time comes by /clock, and messages overtake it
   };
   struct Item {
     InputHeader header;
@@ -108,6 +111,8 @@ class InputJudge {
 
   std::optional<Refusal> judged(const InputHeader& header, const Moment& now) const;
   std::optional<Refusal> judgedByOrder(const InputHeader& header) const;
+  // Whether it waits until ROS time is nearer to its stamp.
+  bool isEarly(const InputHeader& header, const Moment& now) const;
   bool rises() const { return rules_.order != InputRules::Order::ANY; }
   void wait(Item item, const Wall& since);
   // One that waits: true where it does not any more.

@@ -59,6 +59,7 @@ InputRow images() {
   InputRules rules;
   rules.most_ahead = 0.1;
   rules.oldest = 5.0;
+  rules.order = Order::NEWEST;
   rules.most_waiting = 1;
   rules.silent_after = 2.0;
   return {"marker_localizer", "camera/image_raw", rules, "max_age",

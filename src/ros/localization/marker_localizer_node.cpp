@@ -29,8 +29,6 @@ using vision::PanelPose;
 
 namespace {
 
-constexpr double kSilent = 2.0;  // s without an image
-
 void nameFrames(MarkerLocalizerOptions& options) {
   options.map_frame = frameName(options.map_frame);
   options.odom_frame = frameName(options.odom_frame);
@@ -65,27 +63,12 @@ std::optional<PanelPose> givenPanel(const MarkerLocalizerOptions& o) {
   return panel;
 }
 
-void checkStamp(const ros::Time& stamp, const ros::Time& now, const ros::Time& last,
-                double max_age) {
-  if (stamp.isZero()) throw InputError("it has no stamp");
-  localization::checkStamp(stampOf(stamp), stampOf(now), max_age);
-  if (stamp == last) throw InputError("its stamp came before");
-  if (stamp < last) throw InputError("it is older than the one before");
-}
-
 // Two cameras on one topic: by the lens of the other the vehicle is a metre off, and no residual shows it.
 void checkSameCamera(const std::string& image, const std::string& info) {
   checkNetworkText("its frame", image);
   if (!info.empty() && frameName(image) != info)
     throw InputError("its frame is '" + frameName(image) + "', that of the camera_info '" + info +
                      "': another camera's");
-}
-
-void addTo(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
-           const InputRecord& input) {
-  status.add(name, input.received());
-  status.add(name + " refused", input.refused());
-  status.add(name + " refused last because", input.reason());
 }
 
 // Root mean square, pixels.
@@ -119,22 +102,30 @@ MarkerLocalizerNode::MarkerLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& p
 
 MarkerLocalizerNode::~MarkerLocalizerNode() {
   diagnostics_timer_.stop();
-  for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
+  infos_->shutdown();
+  images_->shutdown();
   learn_panel_.shutdown();
 }
 
 void MarkerLocalizerNode::listen(ros::NodeHandle& private_nh) {
-  subscribers_.push_back(subscribeChecked<sensor_msgs::CameraInfo>(
-      nh_, "camera/camera_info", 1, [this](const sensor_msgs::CameraInfo& info) { onInfo(info); }));
-  subscribers_.push_back(subscribeChecked<sensor_msgs::Image, const sensor_msgs::ImageConstPtr&>(
-      nh_, "camera/image_raw", 1,
-      [this](const sensor_msgs::ImageConstPtr& image) { onImage(image); }));
+  using sensor_msgs::CameraInfo, sensor_msgs::Image;
+  infos_ = std::make_unique<Input<CameraInfo>>(
+      nh_, "camera/camera_info", rulesOf("marker_localizer", "camera/camera_info"), transforms_,
+      [this](const Input<CameraInfo>::Arrival& info) { onInfo(*info.message); });
+  images_ = std::make_unique<Input<Image>>(nh_, "camera/image_raw", imageRules(), transforms_,
+                                           [this] { lookAtNext(); });
   using std_srvs::Trigger;
   learn_panel_ =
       advertiseService<Trigger>(private_nh, "learn_panel", [this](auto&, auto& response) {
         learnPanel(response);
         return true;
       });
+}
+
+InputRules MarkerLocalizerNode::imageRules() const {
+  InputRules rules = rulesOf("marker_localizer", "camera/image_raw");
+  rules.oldest = options_.max_age;
+  return rules;
 }
 
 void MarkerLocalizerNode::use(MarkerLocalizerOptions options) {
@@ -146,6 +137,7 @@ void MarkerLocalizerNode::use(MarkerLocalizerOptions options) {
         "layout, map_frame, odom_frame and base_frame cannot be changed while the node runs");
   const bool forgets = options_.panel_known && !options.panel_known;
   options_ = options;
+  if (images_) images_->setRules(imageRules());
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     sightings_.use(options.learning);
@@ -162,61 +154,44 @@ void MarkerLocalizerNode::usePanel(const std::optional<PanelPose>& panel) {
 
 void MarkerLocalizerNode::timeWentBack(double seconds) {
   ROS_WARN_STREAM("ROS time went back by " << seconds << " s: images and tf are forgotten");
-  last_stamp_ = {};
   const std::lock_guard<std::mutex> lock(mutex_);
   sightings_.clear();
   tally_.newest.reset();
 }
 
 void MarkerLocalizerNode::onInfo(const sensor_msgs::CameraInfo& message) {
-  infos_.receive();
-  try {
-    checkNetworkText("its frame", message.header.frame_id);
-    calibration_ = calibrationOf(message);
-    calibration_frame_ = frameName(message.header.frame_id);
-  } catch (const InputError& error) {
-    infos_.refuse(error.what());
-  }
+  checkNetworkText("its frame", message.header.frame_id);
+  calibration_ = calibrationOf(message);
+  calibration_frame_ = frameName(message.header.frame_id);
 }
 
-void MarkerLocalizerNode::onImage(const sensor_msgs::ImageConstPtr& message) {
-  if (!time_.isThere()) return;
-  const ros::Time stamp = message->header.stamp;
-  try {
-    checkStamp(stamp, time_.nowAfter(stamp, localization::kMostAhead), last_stamp_,
-               options_.max_age);
-    if (!calibration_) throw InputError("no camera_info that can be used has come yet");
-    checkSameCamera(message->header.frame_id, calibration_frame_);
-  } catch (const InputError& error) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    tally_.images.receive();
-    tally_.images.refuse(error.what());
-    return;
-  }
-  last_stamp_ = stamp;
-  looker_.post([this, image = MarkerImage{message, *calibration_, options_, panel_}](
-                   const StopSource& stop) { lookAt(image, stop.token()); },
-               "image");
+// With what is in force now.
+void MarkerLocalizerNode::lookAtNext() {
+  looker_.post(
+      [this, calibration = calibration_, frame = calibration_frame_, options = options_,
+       panel = panel_](const StopSource& stop) {
+        try {
+          images_->useNext([&](const Input<sensor_msgs::Image>::Arrival& image) {
+            if (!calibration) throw InputError("no camera_info that can be used has come yet");
+            checkSameCamera(image.message->header.frame_id, frame);
+            lookAt({image.message, *calibration, options, panel}, stop.token());
+          });
+        } catch (const base::Stopped&) {  // the node ends
+        }
+      },
+      "image");
 }
 
 // In the thread of the images.
 void MarkerLocalizerNode::lookAt(const MarkerImage& image, const StopToken& stop) {
-  try {
-    MarkerAnswer answer = answerOf(image, layout_, transforms_, stop);
-    publisher_.publish(image, answer, layout_);
-    answer.grey = {};
-    const std::lock_guard<std::mutex> lock(mutex_);
-    tally_.images.receive();
-    if (answer.sighting) sightings_.add(*answer.sighting);
-    if (answer.base) ++tally_.poses;
-    tally_.newest = std::move(answer);
-    tally_.newest_stamp = image.message->header.stamp;
-  } catch (const base::Stopped&) {  // the node ends
-  } catch (const std::runtime_error& error) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    tally_.images.receive();
-    tally_.images.refuse(error.what());
-  }
+  MarkerAnswer answer = answerOf(image, layout_, transforms_, stop);
+  publisher_.publish(image, answer, layout_);
+  answer.grey = {};
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (answer.sighting) sightings_.add(*answer.sighting);
+  if (answer.base) ++tally_.poses;
+  tally_.newest = std::move(answer);
+  tally_.newest_stamp = image.message->header.stamp;
 }
 
 void MarkerLocalizerNode::learnPanel(std_srvs::Trigger::Response& response) {
@@ -238,12 +213,11 @@ void MarkerLocalizerNode::learnPanel(std_srvs::Trigger::Response& response) {
   ROS_INFO_STREAM("~learn_panel: " << response.message);
 }
 
-void MarkerLocalizerNode::summarize(diagnostic_updater::DiagnosticStatusWrapper& status,
-                                    double age) const {
-  const InputRecord& images = tally_.images;
-  if (images.received() == 0) return status.summary(DiagnosticStatus::OK, "not heard");
-  if (!tally_.newest || age > kSilent)
-    return status.summary(DiagnosticStatus::WARN, "silent, or refused: " + images.reason());
+void MarkerLocalizerNode::summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  if (images_->counts().received == 0) return status.summary(DiagnosticStatus::OK, "not heard");
+  if (const auto problem = images_->problem())
+    return status.summary(DiagnosticStatus::WARN, *problem);
+  if (!tally_.newest) return status.summary(DiagnosticStatus::OK, "no image of this time yet");
   const MarkerAnswer& newest = *tally_.newest;
   if (!newest.fix.fits)
     status.summary(DiagnosticStatus::ERROR, newest.reason);
@@ -258,9 +232,9 @@ void MarkerLocalizerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& 
   const std::lock_guard<std::mutex> lock(mutex_);
   const vision::MarkerFix fix = tally_.newest ? tally_.newest->fix : vision::MarkerFix();
   const double age = secondsBetween(tally_.newest_stamp, ros::Time::now());
-  const std::uint64_t taken = tally_.images.received() - tally_.images.refused();
+  const std::uint64_t taken = images_->counts().used;
   const auto before = std::exchange(diagnosed_images_, taken);
-  summarize(status, age);
+  summarize(status);
   status.add("rate (Hz)", static_cast<double>(taken - before) / kDiagnosisPeriod);
   status.add("age (s)", tally_.newest ? std::to_string(age) : "none");
   status.add("poses", tally_.poses);
@@ -268,8 +242,8 @@ void MarkerLocalizerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& 
   status.add("markers that the layout does not have", fix.unknown);
   status.add("residual (pixels)", residualOf(fix));
   status.add("panel", panel_ ? "known" : "not known");
-  addTo(status, "images", tally_.images);
-  addTo(status, "camera_info", infos_);
+  addTo(status, "images", images_->counts());
+  addTo(status, "camera_info", infos_->counts());
 }
 
 }  // namespace grid_path_planner::nodes

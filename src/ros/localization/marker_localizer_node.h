@@ -7,8 +7,8 @@
 //               /diagnostics
 //   services    ~learn_panel        std_srvs/Trigger: the panel stays where the last images had it
 //
-// Guaranteed: images are looked at one at a time in a thread of its own, always the newest that waits; a stamp
-// is used once, in rising order. What cannot be used changes nothing, and its reason is in the log and in the
+// Guaranteed: images are looked at one at a time in a thread of its own, always the newest that waits, in rising
+// order. What cannot be used changes nothing, and its reason is in the log and in the
 // diagnostics. A panel whose pose is known or was learnt stays where it is. ROS time that goes back forgets
 // images, tf and stamps, not the panel.
 #pragma once
@@ -22,13 +22,11 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "grid_path_planner/base/task_queue.h"
 #include "ros/guard/node_files.h"
 #include "ros/guard/node_time.h"
-#include "ros/input/frame_lookup.h"
-#include "ros/input/input_record.h"
+#include "ros/input/input.h"
 #include "ros/localization/marker_localizer_options.h"
 #include "ros/localization/marker_poses.h"
 #include "ros/localization/marker_publisher.h"
@@ -54,19 +52,19 @@ class MarkerLocalizerNode {
 
  private:
   void listen(ros::NodeHandle& private_nh);
+  InputRules imageRules() const;
   void use(MarkerLocalizerOptions options);
   void usePanel(const std::optional<vision::PanelPose>& panel);
   void timeWentBack(double seconds);
   void onInfo(const sensor_msgs::CameraInfo& message);
-  void onImage(const sensor_msgs::ImageConstPtr& message);
+  void lookAtNext();
   void lookAt(const MarkerImage& image, const base::StopToken& stop);
   void learnPanel(std_srvs::Trigger::Response& response);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
-  void summarize(diagnostic_updater::DiagnosticStatusWrapper& status, double age) const;
+  void summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   // Of the images so far.
   struct Tally {
-    InputRecord images{"An image"};
     std::uint64_t poses = 0;
     std::optional<MarkerAnswer> newest;  // without pixels
     ros::Time newest_stamp;
@@ -78,18 +76,17 @@ class MarkerLocalizerNode {
   FrameTransforms transforms_;
   NodeTime& time_;
   MarkerPublisher publisher_;
-  InputRecord infos_{"camera_info"};
   std::optional<vision::CameraCalibration> calibration_;
   std::string calibration_frame_;  // that its message names; may be empty
   std::optional<vision::PanelPose> panel_;
-  ros::Time last_stamp_;
   std::uint64_t diagnosed_images_ = 0;  // when the diagnostics were last made
 
   std::mutex mutex_;  // of the next two
   Tally tally_;
   vision::PanelSightings sightings_;
 
-  std::vector<ros::Subscriber> subscribers_;
+  std::unique_ptr<Input<sensor_msgs::CameraInfo>> infos_;
+  std::unique_ptr<Input<sensor_msgs::Image>> images_;
   ros::ServiceServer learn_panel_;
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer diagnostics_timer_;

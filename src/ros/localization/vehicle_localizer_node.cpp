@@ -8,10 +8,9 @@
 
 #include "grid_path_planner/VehicleLocalizerConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "localization/measurement_check.h"
 #include "ros/guard/incoming/advertised_service.h"
-#include "ros/guard/incoming/bounded_subscription.h"
 #include "ros/guard/outgoing/diagnostics_timer.h"
+#include "ros/guard/outgoing/latched_message.h"
 #include "ros/guard/parameters.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 #include "ros/guard/scheduling/log_throttle.h"
@@ -31,9 +30,7 @@ using localization::Verdict;
 
 namespace {
 
-constexpr double kListens = 0.5;              // s of the wall clock, before the first transform
-constexpr std::size_t kWaiting = 200;         // messages of the IMU; 2 s
-constexpr std::size_t kWaitingOfOthers = 20;  // of each other sensor
+constexpr double kListens = 0.5;  // s of the wall clock, before the first transform
 
 void nameFrames(VehicleLocalizerOptions& options) {
   for (std::string* frame : {&options.map_frame, &options.odom_frame, &options.base_frame,
@@ -58,16 +55,31 @@ std::vector<std::string> childrenOf(const VehicleLocalizerOptions& options) {
   return children;
 }
 
-// A function of SensorMessages, and the message that it takes.
-template <class M>
-struct Conversion {
-  using Message = M;
-  localization::Measurement (SensorMessages::*function)(const M&) const;
-};
+std::string topicOf(Source source, const VehicleLocalizerOptions& options) {
+  switch (source) {
+    case Source::IMU:
+      return "imu/data";
+    case Source::DVL:
+      return "dvl/twist";
+    case Source::DEPTH:
+      return options.use_pressure ? "pressure" : "depth";
+    case Source::USBL:
+      return "usbl/pose";
+    case Source::MARKER:
+      return "marker_pose";
+    case Source::COMMAND:
+      return "cmd_vel";
+    default:
+      return "initialpose";
+  }
+}
 
-template <class M>
-Conversion<M> conversion(localization::Measurement (SensorMessages::*function)(const M&) const) {
-  return {function};
+InputRules rulesOf(Source source, const VehicleLocalizerOptions& options) {
+  InputRules rules = nodes::rulesOf("vehicle_localizer", topicOf(source, options));
+  rules.oldest = options.localizer.filter.history;
+  if (source != Source::SET_POSE)
+    rules.silent_after = localization::longestSilence(source, options.localizer);
+  return rules;
 }
 
 template <class Snapshot>
@@ -100,7 +112,6 @@ VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle&
   if (const auto heading = kept_.begin()) localizer_.beginWith(*heading);
   announce(localizer_.report({}));
   subscribe();
-  subscribeSensors();
   offerServices(private_nh);
   reconfigurable_ =
       std::make_unique<Reconfigurable<VehicleLocalizerConfig, VehicleLocalizerOptions>>(
@@ -113,7 +124,7 @@ VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle&
 VehicleLocalizerNode::~VehicleLocalizerNode() {
   publish_timer_.stop();
   diagnostics_timer_.stop();
-  for (ros::Subscriber& subscriber : subscribers_) subscriber.shutdown();
+  for (auto& [source, input] : inputs_) input->shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
 }
 
@@ -125,32 +136,42 @@ Eigen::Isometry3d VehicleLocalizerNode::placeOnVehicle(const std::string& target
   return found;
 }
 
-void VehicleLocalizerNode::subscribe() {
-  subscribers_.push_back(subscribeBounded<sensor_msgs::Imu>(
-      nh_, "imu/data", {kWaiting, kMostWaitingBytes},
-      [this](const sensor_msgs::Imu& message) { onImu(message); }));
-  subscribers_.push_back(subscribeChecked<geometry_msgs::Twist>(
-      nh_, "cmd_vel", 10, [this](const geometry_msgs::Twist& message) { onCommand(message); }));
-  subscribers_.push_back(subscribeChecked<PoseWithCovarianceStamped>(
-      nh_, "initialpose", 1, [this](const PoseWithCovarianceStamped& m) { setPose(m); }));
+template <class Message, class Use>
+Input<Message>& VehicleLocalizerNode::listen(Source source, const Use& use) {
+  auto input = std::make_unique<Input<Message>>(
+      nh_, topicOf(source, options_), rulesOf(source, options_), transforms_,
+      [use](const typename Input<Message>::Arrival& arrival) { use(*arrival.message); });
+  Input<Message>& listening = *input;
+  inputs_[source] = std::move(input);
+  return listening;
 }
 
-void VehicleLocalizerNode::subscribeSensors() {
-  const auto listen = [this](const char* topic, Source source, auto convert) {
-    using Message = typename decltype(convert)::Message;
-    subscribers_.push_back(subscribeBounded<Message>(
-        nh_, topic, {kWaitingOfOthers, kMostWaitingBytes},
-        [this, source, convert](const Message& message) {
-          take(source, [&] { return (messages_.*convert.function)(message); });
-        }));
-  };
-  listen("dvl/twist", Source::DVL, conversion(&SensorMessages::dvl));
-  listen("usbl/pose", Source::USBL, conversion(&SensorMessages::usbl));
-  listen("marker_pose", Source::MARKER, conversion(&SensorMessages::marker));
+void VehicleLocalizerNode::subscribe() {
+  using geometry_msgs::Twist, geometry_msgs::TwistWithCovarianceStamped;
+  listen<sensor_msgs::Imu>(Source::IMU,
+                           [this](const sensor_msgs::Imu& message) { onImu(message); });
+  listen<TwistWithCovarianceStamped>(
+      Source::DVL,
+      [this](const TwistWithCovarianceStamped& message) { take(messages_.dvl(message)); });
+  listen<PoseWithCovarianceStamped>(Source::USBL, [this](const PoseWithCovarianceStamped& message) {
+    take(messages_.usbl(message));
+  });
+  listen<PoseWithCovarianceStamped>(
+      Source::MARKER,
+      [this](const PoseWithCovarianceStamped& message) { take(messages_.marker(message)); });
   if (options_.use_pressure)
-    listen("pressure", Source::DEPTH, conversion(&SensorMessages::pressure));
+    listen<sensor_msgs::FluidPressure>(
+        Source::DEPTH,
+        [this](const sensor_msgs::FluidPressure& message) { take(messages_.pressure(message)); });
   else
-    listen("depth", Source::DEPTH, conversion(&SensorMessages::depth));
+    listen<PoseWithCovarianceStamped>(
+        Source::DEPTH,
+        [this](const PoseWithCovarianceStamped& message) { take(messages_.depth(message)); });
+  listen<Twist>(Source::COMMAND, [this](const Twist& message) { onCommand(message); });
+  given_poses_ = &listen<PoseWithCovarianceStamped>(
+      Source::SET_POSE, [this](const PoseWithCovarianceStamped& message) {
+        take(messages_.setPose(message, NodeTime::now()));
+      });
 }
 
 void VehicleLocalizerNode::offerServices(ros::NodeHandle& private_nh) {
@@ -197,6 +218,7 @@ void VehicleLocalizerNode::use(VehicleLocalizerOptions options) {
   messages_.use(options);
   publisher_.use(options);
   options_ = options;
+  for (auto& [source, input] : inputs_) input->setRules(rulesOf(source, options_));
 }
 
 void VehicleLocalizerNode::timeWentBack(double seconds) {
@@ -224,48 +246,38 @@ void VehicleLocalizerNode::beginAnew(const std::optional<localization::KnownHead
   last_command_ = {};
 }
 
-// Why it was not used; empty: it was.
-template <class Convert>
-std::string VehicleLocalizerNode::take(Source source, const Convert& convert) {
-  if (!time_.isThere()) return "there is no ROS time yet";
-  inputs_[source].receive();
-  try {
-    const localization::Measurement measurement = convert();
-    const ros::Time now = time_.nowAfter(timeOf(measurement.stamp), localization::kMostAhead);
-    localization::checkStamp(measurement.stamp, stampOf(now), options_.localizer.filter.history);
-    const Verdict verdict = localizer_.add(measurement);
-    fixes_.add(measurement, verdict, options_.map_frame);
-    if (verdict == Verdict::RESET)
-      ROS_WARN_STREAM(options_.localizer.filter.reset_after
-                      << " measurements in a row of " << nameOf(source)
-                      << " agree with each other and not with the pose: what they measure begins "
-                         "anew");
-    return {};
-  } catch (const std::runtime_error& error) {
-    inputs_[source].refuse(error.what());
-    return error.what();
-  }
+// Throws std::runtime_error for one that is not used.
+void VehicleLocalizerNode::take(const localization::Measurement& measurement) {
+  const Verdict verdict = localizer_.add(measurement);
+  fixes_.add(measurement, verdict, options_.map_frame);
+  if (verdict == Verdict::RESET)
+    ROS_WARN_STREAM(options_.localizer.filter.reset_after
+                    << " measurements in a row of " << nameOf(measurement.source)
+                    << " agree with each other and not with the pose: what they measure begins "
+                       "anew");
 }
 
 void VehicleLocalizerNode::onImu(const sensor_msgs::Imu& message) {
-  if (!take(Source::IMU, [&] { return messages_.imu(message); }).empty()) return;
+  take(messages_.imu(message));
   messages_.keep(message);
-  if (options_.use_heading && messages_.heading(message))
-    take(Source::HEADING, [&] { return *messages_.heading(message); });
+  if (const auto heading = messages_.heading(message)) take(*heading);
   const ros::Time stamp = normalized(message.header.stamp);
   if (publisher_.isDue(stamp)) publish(stamp);
 }
 
 // Several within one step of simulated time are one command.
 void VehicleLocalizerNode::onCommand(const geometry_msgs::Twist& message) {
-  if (!time_.isThere()) return;
   const ros::Time now = ros::Time::now();
   if (now == std::exchange(last_command_, now)) return;
-  take(Source::COMMAND, [&] { return messages_.command(message, now); });
+  take(messages_.command(message, now));
 }
 
+// Why it was not used; empty: it was.
 std::string VehicleLocalizerNode::setPose(const PoseWithCovarianceStamped& message) {
-  return take(Source::SET_POSE, [&] { return messages_.setPose(message, ros::Time::now()); });
+  const auto used = given_poses_->counts().used;
+  if (const auto why = given_poses_->give(boost::make_shared<PoseWithCovarianceStamped>(message)))
+    return *why;
+  return given_poses_->counts().used > used ? "" : "it is ahead of ROS time, and waits for it";
 }
 
 // While no IMU does.
@@ -333,7 +345,7 @@ void VehicleLocalizerNode::announce(const LocalizationReport& report) {
   if (told == std::exchange(told_, told)) return;
   std_msgs::String message;
   message.data = std::string(nameOf(report.status)) + ": " + report.sentence;
-  status_publisher_.publish(message);
+  publishLatched(status_publisher_, message);
   ROS_INFO_STREAM(message.data);
   if (!rival.empty()) ROS_ERROR_STREAM("No transform is published: " << rival);
 }
@@ -356,17 +368,20 @@ void VehicleLocalizerNode::diagnoseInput(Source source,
   const auto now = stampOf(ros::Time::now());
   auto statistics = localization::inputStatistics(localizer_.map(), source, now);
   if (!statistics.age) statistics.age = localizer_.sinceUsed(source, now);
-  const InputRecord& input = inputs_[source];
-  const InputHealth health = healthOf(statistics, input, expectationOf(source, options_));
+  const InputBase& input = *inputs_.at(source == Source::HEADING ? Source::IMU : source);
+  const bool is_heard = source != Source::HEADING || options_.use_heading;
+  const InputCounts counts = is_heard ? input.counts() : InputCounts();
+  const InputHealth health =
+      healthOf(statistics, counts, input.problem(), expectationOf(source, options_));
   status.summary(health.is_good ? DiagnosticStatus::OK : DiagnosticStatus::WARN, health.sentence);
-  status.add("received", input.received());
+  status.add("received", counts.received);
   status.add("rate (Hz)", statistics.rate);
   status.add("age (s)", statistics.age ? std::to_string(*statistics.age) : "none lately");
   status.add("taken", statistics.counts.taken);
   status.add("gated", statistics.counts.gated);
   status.add("resets", statistics.counts.resets);
-  status.add("refused", input.refused());
-  status.add("refused last because", input.reason());
+  status.add("refused", counts.refusedInAll());
+  status.add("refused last because", counts.last_refusal);
   status.add("NIS, mean", statistics.nis_mean);
   status.add("NIS, 95 % low", statistics.nis_bounds.low);
   status.add("NIS, 95 % high", statistics.nis_bounds.high);

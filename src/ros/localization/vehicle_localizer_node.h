@@ -31,6 +31,7 @@
 #include <ros/node_handle.h>
 #include <ros/steady_timer.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,9 +41,8 @@
 #include "localization/vehicle_localizer.h"
 #include "ros/guard/node_files.h"
 #include "ros/guard/node_time.h"
-#include "ros/input/frame_lookup.h"
+#include "ros/input/input.h"
 #include "ros/localization/fix_markers.h"
-#include "ros/localization/input_log.h"
 #include "ros/localization/kept_heading.h"
 #include "ros/localization/pose_publisher.h"
 #include "ros/localization/sensor_messages.h"
@@ -70,15 +70,15 @@ class VehicleLocalizerNode {
 
  private:
   Eigen::Isometry3d placeOnVehicle(const std::string& target, const std::string& source) const;
+  template <class Message, class Use>
+  Input<Message>& listen(localization::Source source, const Use& use);
   void subscribe();
-  void subscribeSensors();
   void offerServices(ros::NodeHandle& private_nh);
   void startDiagnostics();
   void use(VehicleLocalizerOptions options);
   void timeWentBack(double seconds);
   void beginAnew(const std::optional<localization::KnownHeading>& heading = {});
-  template <class Convert>
-  std::string take(localization::Source source, const Convert& convert);
+  void take(const localization::Measurement& measurement);
   void onImu(const sensor_msgs::Imu& message);
   void onCommand(const geometry_msgs::Twist& message);
   std::string setPose(const geometry_msgs::PoseWithCovarianceStamped& message);
@@ -99,7 +99,6 @@ class VehicleLocalizerNode {
   localization::VehicleLocalizer localizer_;
   KeptHeading kept_;
   SensorMessages messages_;
-  InputLog inputs_;
   PosePublisher publisher_;
   FixMarkers fixes_;
   ros::Publisher status_publisher_;
@@ -109,7 +108,8 @@ class VehicleLocalizerNode {
   ros::SteadyTime heard_since_;  // when tf was first listened to
   ros::Time last_command_;
 
-  std::vector<ros::Subscriber> subscribers_;
+  std::map<localization::Source, std::unique_ptr<InputBase>> inputs_;
+  Input<geometry_msgs::PoseWithCovarianceStamped>* given_poses_ = nullptr;  // one of them
   std::vector<ros::ServiceServer> services_;
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer publish_timer_, diagnostics_timer_;

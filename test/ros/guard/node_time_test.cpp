@@ -5,7 +5,6 @@
 #include <ros/callback_queue.h>
 
 #include <atomic>
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -291,37 +290,6 @@ TEST_F(NodeTimeTest, SaysWhatIsWrongWithAStamp) {
   EXPECT_EQ(time_.problemWith(ros::Time(4.0)), "ROS time went back, to 5.000000000");
   EXPECT_EQ(time_.problemWith(ros::Time(6.0)), std::nullopt);
   EXPECT_EQ(time_.problemWith(ros::Time(99.0)), "that is 91 s ahead of the time here");
-}
-
-constexpr double kAhead = 0.1;
-
-TEST_F(NodeTimeTest, WaitsForTheClockThatAMessageOvertook) {
-  // Where the machine keeps the clock waiting for longer than it is waited for, another one tries.
-  EXPECT_TRUE(test::waitFor([] {
-    NodeTime time;
-    setClock(100.0);
-    std::thread late([] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      setClock(100.5);
-    });
-    const ros::Time found = time.nowAfter(ros::Time(100.5), kAhead);
-    late.join();
-    return found == ros::Time(100.5);
-  }));
-}
-
-TEST_F(NodeTimeTest, DoesNotWaitForWhatMayBeAhead) {
-  EXPECT_EQ(time_.nowAfter(ros::Time(100.05), kAhead), ros::Time(100.0));
-  EXPECT_EQ(time_.nowAfter(ros::Time(), kAhead), ros::Time(100.0));
-}
-
-// The second would be the clock's if it were waited for.
-TEST_F(NodeTimeTest, OneStampThatIsWrongDoesNotHoldTheOthers) {
-  const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(time_.nowAfter(ros::Time(4294967295u, 0), kAhead), ros::Time(100.0));
-  for (int i = 0; i < 100; ++i) time_.nowAfter(ros::Time(101.0), kAhead);
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  EXPECT_LT(spent.count(), 100 * 0.05);
 }
 
 }  // namespace

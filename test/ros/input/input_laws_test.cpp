@@ -49,6 +49,7 @@ struct Case {
   std::optional<double>
       before;    // s after the stamp: that of one that came before; none: it is the first
   double later;  // s, until it is looked at again
+  bool by_clock_topic;
 };
 
 struct Fate {
@@ -97,14 +98,19 @@ class Reference {
 
  private:
   bool asksTf() const { return !rules_.frames.empty(); }
-  bool isTooEarly(double time) const { return rules_.order == Order::RISING && stamp_ > time; }
+  bool isTooEarly(double time) const {
+    return (rules_.order == Order::RISING && stamp_ > time) ||
+           (case_.by_clock_topic && stamp_ - time > rules_.most_ahead);
+  }
   Strings refusals() const {
     Strings reasons;
     const bool is_now = !case_.has_stamp;
     if (is_now && rules_.stamp == InputRules::Stamp::REQUIRED) reasons.insert("no stamp");
     if (!case_.has_frame && rules_.frame_required) reasons.insert("no frame");
     if (!is_now && case_.age > rules_.oldest) reasons.insert("too old");
-    if (!is_now && -case_.age > rules_.most_ahead) reasons.insert("ahead of ROS time");
+    const double most_ahead =
+        case_.by_clock_topic ? std::max(rules_.most_ahead, 10.0) : rules_.most_ahead;
+    if (!is_now && -case_.age > most_ahead) reasons.insert("ahead of ROS time");
     if (last_ && stamp_ <= *last_) reasons.insert("not newer than the one before");
     return reasons;
   }
@@ -118,27 +124,29 @@ class Reference {
 class RowTest {
  public:
   RowTest(const InputRow& row, const Case& c)
-      : row_(row),
-        case_(c),
-        reference_(row.rules, c),
-        judge_("/topic", row.rules, momentAt(1.0, -3.0)) {}
+      : row_(row), case_(c), reference_(row.rules, c), judge_("/topic", row.rules, at(1.0, -3.0)) {}
 
   void run() {
     letBeforeCome();
     const ros::Time stamp(case_.has_stamp ? kTestTime - case_.age : 0.0);
     judge_.add({stamp, case_.has_frame ? "sensor" : "", 100}, nullptr, now_);
     expect(reference_.atFirst(), case_.tf == Tf::KNOWN);
-    now_ = momentAt(kTestTime + case_.later, case_.later);
+    now_ = at(kTestTime + case_.later, case_.later);
     expectProblem(kTestTime + case_.later);
     expect(reference_.later(), case_.tf != Tf::NEVER);
   }
 
  private:
+  Moment at(double time, double wall) const {
+    Moment moment = momentAt(time, wall);
+    moment.by_clock_topic = case_.by_clock_topic;
+    return moment;
+  }
   // Of the same frame, as another one has an order of its own.
   void letBeforeCome() {
     if (case_.before) {
       const double stamp = (case_.has_stamp ? kTestTime - case_.age : kTestTime) + *case_.before;
-      now_ = momentAt(std::min(stamp, kTestTime), std::min(*case_.before, 0.0));
+      now_ = at(std::min(stamp, kTestTime), std::min(*case_.before, 0.0));
       judge_.add({ros::Time(stamp), case_.has_frame ? "sensor" : "", 100}, nullptr, now_);
       judge_.place(tfThat(true), now_);
       useAll();
@@ -146,7 +154,7 @@ class RowTest {
       used_before_ = judge_.counts().used;
     }
     refused_before_ = judge_.counts().refused;
-    now_ = momentAt(kTestTime, 0.0);
+    now_ = at(kTestTime, 0.0);
   }
   void useAll() {
     while (const auto item = judge_.take()) {
@@ -208,7 +216,7 @@ class RowTest {
 // About each limit of the row, and far beyond.
 std::vector<double> agesOf(const InputRules& rules) {
   std::vector<double> ages = {0.0, 0.05, -0.05, 4000.0, -4000.0, kTestTime - 1.0};
-  for (const double limit : {rules.oldest, -rules.most_ahead})
+  for (const double limit : {rules.oldest, -rules.most_ahead, -10.0})
     if (!std::isinf(limit))
       for (const double beside : {-0.02, 0.02}) ages.push_back(limit + beside);
   return ages;
@@ -230,19 +238,46 @@ TEST(InputLaws, EachRowDoesWhatItsWordsSay) {
         for (const double age : has_stamp ? agesOf(row.rules) : std::vector<double>{0.0})
           for (const Tf tf : {Tf::KNOWN, Tf::LATE, Tf::NEVER})
             for (const auto& before : befores)
-              for (const double later : latersOf(row.rules)) {
-                const Case c{has_stamp, has_frame, age, tf, before, later};
-                SCOPED_TRACE(row.node + " " + row.topic + " stamp " + std::to_string(has_stamp) +
-                             " frame " + std::to_string(has_frame) + " age " + std::to_string(age) +
-                             " tf " + std::to_string(static_cast<int>(tf)) + " before " +
-                             (before ? std::to_string(*before) : "none") + " later " +
-                             std::to_string(later));
-                RowTest(row, c).run();
-                ++cases;
-                if (HasFailure()) return;
-              }
+              for (const double later : latersOf(row.rules))
+                for (const bool by_clock_topic : {false, true}) {
+                  const Case c{has_stamp, has_frame, age, tf, before, later, by_clock_topic};
+                  SCOPED_TRACE(row.node + " " + row.topic + " stamp " + std::to_string(has_stamp) +
+                               " frame " + std::to_string(has_frame) + " age " +
+                               std::to_string(age) + " tf " + std::to_string(static_cast<int>(tf)) +
+                               " before " + (before ? std::to_string(*before) : "none") +
+                               " later " + std::to_string(later) + " by /clock " +
+                               std::to_string(by_clock_topic));
+                  RowTest(row, c).run();
+                  ++cases;
+                  if (HasFailure()) return;
+                }
   std::cout << cases << " cases of " << inputTable().size() << " inputs\n";
-  EXPECT_GT(cases, 10000U);
+  EXPECT_GT(cases, 20000U);
+}
+
+// As fast as a bag is played, /clock is behind what the sensors of the bag say: each was refused, or waited for in the node's
+// only thread.
+TEST(InputLaws, WhatOvertookTheClockIsUsedInTheOrderOfItsComing) {
+  const InputRules& rules = rulesOf("vehicle_localizer", "imu/data");
+  Moment now = momentAt(100.0, 0.0);
+  now.by_clock_topic = true;
+  InputJudge judge("/imu", rules, now);
+  for (const double stamp : {100.05, 100.3, 100.2, 100.08})
+    EXPECT_FALSE(judge.add({ros::Time(stamp), "imu", 1}, nullptr, now)) << stamp;
+  std::vector<double> used;
+  const auto use_at = [&](double time) {
+    now.time = ros::Time(time);
+    judge.place(tfThat(true), now);
+    while (const auto item = judge.take()) {
+      used.push_back(item->header.stamp.toSec());
+      judge.countUsed(*item, now);
+    }
+  };
+  use_at(100.0);
+  EXPECT_EQ(used, (std::vector<double>{100.05, 100.08}));
+  use_at(100.25);
+  EXPECT_EQ(used, (std::vector<double>{100.05, 100.08, 100.3, 100.2}));
+  EXPECT_TRUE(judge.add({ros::Time(120.0), "imu", 1}, nullptr, now)) << "of another clock";
 }
 
 // ---- In any order

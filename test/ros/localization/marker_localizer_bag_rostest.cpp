@@ -89,12 +89,13 @@ std::vector<Trouble> allTroubles() {
   CameraInfo nan = test::panelCamera();
   nan.K[4] = std::numeric_limits<double>::quiet_NaN();
   return {
-      imageTrouble(1, "its stamp came before", [](Image& i) { i.header.stamp = stampOfImage(1); }),
+      imageTrouble(1, "not newer than the one before",
+                   [](Image& i) { i.header.stamp = stampOfImage(1); }),
       infoTrouble(1, "0 x 0 pixels", CameraInfo()),
-      imageTrouble(2, "older than the one before",
+      imageTrouble(2, "not newer than the one before",
                    [](Image& i) { i.header.stamp = stampOfImage(1); }),
       infoTrouble(2, "not calibrated", nan),
-      imageTrouble(3, "s in the future",
+      imageTrouble(3, "s ahead of ROS time",
                    [](Image& i) { i.header.stamp = ros::Time(4294967295u, 0); }),
       imageTrouble(4, "s old", [](Image& i) { i.header.stamp = ros::Time(1, 0); }),
       imageTrouble(5, "'nowhere'", [](Image& i) { i.header.frame_id = "nowhere"; }),

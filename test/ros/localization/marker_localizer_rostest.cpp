@@ -242,10 +242,11 @@ TEST_F(MarkerLocalizerTest, ImagesThatCannotBeUsedAreRefusedAndNothingIsLost) {
         sentence);
   };
   refuses("it has no stamp", [](Image& i) { i.header.stamp = {}; });
-  refuses("s in the future", [](Image& i) { i.header.stamp = ros::Time(4294967295u, 0); });
+  refuses("s ahead of ROS time", [](Image& i) { i.header.stamp = ros::Time(4294967295u, 0); });
   refuses("s old", [](Image& i) { i.header.stamp = ros::Time(1, 0); });
   const Image old = image();
-  refuses("its stamp came before", [&](Image& i) { i.header.stamp = old.header.stamp; });
+  refuses("it is not newer than the one before",
+          [&](Image& i) { i.header.stamp = old.header.stamp; });
   refuses("it has 0 x 0 pixels", [](Image& i) {
     i.width = i.height = i.step = 0;
     i.data.clear();

@@ -78,8 +78,10 @@ class Pains {
   void addStampsAndFrame(const std::string& frame_sentence) {
     add("stamp twice", "one of the same stamp was used already",
         [](Message& m) { m.header.stamp -= kAside; });
-    add("in the future", "s in the future", [](Message& m) { m.header.stamp += {60, 0}; });
-    add("older than the history", "s old, more than the history of 5 s", [](Message& m) {
+    add("in the future", "s ahead of ROS time, more than 0.1 s", [](Message& m) {
+      m.header.stamp += {60, 0};
+    });
+    add("older than the history", "s old, more than 5 s", [](Message& m) {
       m.header.stamp -= {6, 0};
     });
     add("unknown frame", frame_sentence, [](Message& m) { m.header.frame_id = "nowhere"; });

@@ -13,9 +13,9 @@ using localization::Source;
 
 namespace {
 
-InputHealth silent(const InputRecord& record, const std::string& since, bool is_missed) {
-  if (!is_missed && record.refused() == 0) return {true, "silent" + since};
-  return {!is_missed, "silent, or refused" + since + ": " + record.reason()};
+InputHealth silent(const std::optional<std::string>& problem, const std::string& since,
+                   bool is_missed) {
+  return {!is_missed, problem.value_or("silent" + since)};
 }
 
 }  // namespace
@@ -27,12 +27,13 @@ InputExpectation expectationOf(Source source, const VehicleLocalizerOptions& opt
   return {limit, source != Source::HEADING || options.use_heading, false};
 }
 
-InputHealth healthOf(const InputStatistics& statistics, const InputRecord& record,
+InputHealth healthOf(const InputStatistics& statistics, const InputCounts& counts,
+                     const std::optional<std::string>& problem,
                      const InputExpectation& expectation) {
-  if (record.received() == 0) return {true, "not heard"};
-  if (!statistics.age) return silent(record, "", expectation.is_missed);
+  if (counts.received == 0) return {true, "not heard"};
+  if (!statistics.age) return silent(problem, "", expectation.is_missed);
   if (*statistics.age > expectation.silent_after)
-    return silent(record, " for " + base::decimalText(std::round(*statistics.age)) + " s",
+    return silent(problem, " for " + base::decimalText(std::round(*statistics.age)) + " s",
                   expectation.is_missed);
   if (statistics.counts.taken == 0 && statistics.counts.gated == 0)
     return expectation.is_spare ? InputHealth{true, "heard, and not needed yet"}

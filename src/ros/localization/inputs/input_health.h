@@ -1,10 +1,11 @@
 // What the diagnostics say of an input of vehicle_localizer.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "localization/input_statistics.h"
-#include "ros/input/input_record.h"
+#include "ros/input/input_judge.h"
 #include "ros/localization/vehicle_localizer_options.h"
 
 namespace grid_path_planner::nodes {
@@ -23,7 +24,9 @@ struct InputHealth {
 };
 
 // The age in `statistics` is that of the newest measurement, or where the history has none of the newest that was used.
-InputHealth healthOf(const localization::InputStatistics& statistics, const InputRecord& record,
+// `problem` is that of the input (input.h).
+InputHealth healthOf(const localization::InputStatistics& statistics, const InputCounts& counts,
+                     const std::optional<std::string>& problem,
                      const InputExpectation& expectation);
 
 }  // namespace grid_path_planner::nodes
