@@ -58,6 +58,9 @@ IMAGES = {
     "negated_in_words": (pgm(picture(0, 255)), {"negate": "true"}),
     "mode_raw": (pgm(picture(0, 100)), {"mode": "raw"}),
     "mode_raw_of_a_picture": (pgm(picture()), {"mode": "raw"})}
+UNKNOWN = [(10, 20), (40, 20)]  # of 60 x 60 cells of 0.05 m
+SPOTS = bytes(205 if (i % 60, 59 - i // 60) in UNKNOWN else 254 for i in range(3600))
+IMAGES["two_unknown"] = (b"P5\n60 60\n255\n" + SPOTS, {"resolution": "0.05", "origin": "[0.0, 0.0, 0.0]"})
 YAMLS = {"crlf_yaml": yaml_of({}, "\r\n"), "bom_yaml": b"\xef\xbb\xbf" + yaml_of({})}
 DUMPS = {"echo_without_arrays": lambda: text_of_dump(False) + "\n---\n",
          "echo_of_several": lambda: text_of_dump() + "\n---\n" + text_of_dump() + "\n---\n"}

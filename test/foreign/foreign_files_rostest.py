@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Files of other programs, to every command and node that reads them: maps to grid_path plan and map_publisher, waypoints to
-grid_path waypoints and navigate_path.
+grid_path waypoints, octrees to grid_path project and projected_map.
 
-`expect` has sees (room; unknown: all but the wall), told and refused as foreign_maps_rostest.py, or waypoints: both, or utm.
+`expect` has sees (room; unknown: all but the wall), told and refused as foreign_maps_rostest.py, or waypoints: both, or utm; clearance, m to the
+unknown cells of all but the path's first segment, as ask.arguments say; occupied and unknown, how many cells.
 """
 import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -22,6 +24,7 @@ import yaml
 from foreign_nodes import ForeignTest, Row, wait_until
 from running_nodes import executable
 
+DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data", "foreign")
 PLAN = ["--smooth", "false", "--outside", "free", "--unknown-is-passable", "false", "--json",
         "--start", "%r,%r" % rooms.START, "--goal", "%r,%r" % rooms.GOAL]
 
@@ -43,7 +46,8 @@ class Files(ForeignTest):
         self.each("plan", self.planned)
 
     def planned(self, row, expect):
-        done = run("plan", "--map", foreign_files.map_file(row, self.folder_of(row)), *PLAN)
+        asked = row.get("ask", {}).get("arguments", [])
+        done = run("plan", "--map", foreign_files.map_file(row, self.folder_of(row)), *(asked + PLAN[:7] if asked else PLAN))
         if expect.get("sees") == "unknown":
             return "" if done.returncode == 1 and "unknown cell" in done.stdout else done.stderr + done.stdout
         if "refused" in expect:
@@ -52,8 +56,44 @@ class Files(ForeignTest):
             return done.stderr + done.stdout
         if not re.search(expect.get("told", ""), done.stderr):
             return "it does not say %s" % expect["told"]
+        if "clearance" in expect:
+            return self.too_near(json.loads(done.stdout)["path"][1:], expect["clearance"])
         length = json.loads(done.stdout)["length_m"]
         return "" if abs(length - rooms.AROUND) < 1e-9 else "%.9f m" % length
+
+    @staticmethod
+    def too_near(path, clearance):
+        """Of what is on straight lines between those places."""
+        places = [(a[0] + step / 1000 * (b[0] - a[0]), a[1] + step / 1000 * (b[1] - a[1]))
+                  for a, b in zip(path, path[1:]) for step in range(1001)]
+        least = min(math.hypot(*(max(0.05 * side - at, 0.0, at - 0.05 * (side + 1)) for side, at in zip(cell, place)))
+                    for place in places for cell in foreign_files.UNKNOWN)
+        return "" if least >= clearance - 1e-9 else "%.4f m" % least
+
+    def test_octrees(self):
+        self.each("grid_path project", self.projected, table.rows("octrees"))
+        self.each("projected_map", self.mapped, table.rows("octrees"))
+
+    def projected(self, row, expect):
+        out = os.path.join(self.folder_of(row), "out.yaml")
+        done = run("project", "--octree", os.path.join(DATA, row["make"]), "--map", out, "--min-z", "0", "--max-z", "1")
+        counts = "unknown %d, occupied %d" % (expect["unknown"], expect["occupied"])
+        return "" if done.returncode == 0 and counts in done.stdout else done.stderr + done.stdout
+
+    def mapped(self, row, expect):
+        name = shutil.copy(os.path.join(DATA, row["make"]), self.folder_of(row))
+        node = foreign_nodes.ForeignNode("projected_map", Row(
+            inputs={}, outputs={"projected_map": "nav_msgs/OccupancyGrid"}, services={}, actions={},
+            arguments=[name, "_occupancy_min_z:=0", "_occupancy_max_z:=1", "_autosave_period:=0"], tf="", probe=None),
+            self.folder.name, space="/" + row["id"])
+        try:
+            def counts():
+                data = list(node.heard("projected_map")[-1].data) if node.heard("projected_map") else []
+                return data.count(100), data.count(-1)
+            right = wait_until(lambda: counts() == (expect["occupied"], expect["unknown"]) or not node.lives(), 20.0)
+            return "" if right and node.lives() else "%r: %s" % (counts(), node.said())
+        finally:
+            node.end(9)
 
     def test_maps_of_map_publisher(self):
         self.each("map_publisher", self.published)

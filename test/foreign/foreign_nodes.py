@@ -31,19 +31,21 @@ def wait_until(holds, seconds=PATIENCE, send=lambda: None, every=0.5):
 
 
 class ForeignNode(RunningNode):
-    """`frames`: child: {parent, x, y, z, quaternion}, which are sent 20 times a second, stamped now + `ahead`."""
+    """`frames`: child: {parent, x, y, z, quaternion, stamp}, which are sent 20 times a second."""
 
     def __init__(self, name, row, log_folder, space=None, environment=None):
         self.frames = {"base_link": {"parent": "map"}}
         self.environment = environment
         self.marked = 0
+        self.begun = None  # what the stamp `frozen` is
         super().__init__(name, row, "process", Clock(False), log_folder, space or "/" + name)
 
     def transforms(self, stamp):
         message = message_class("tf2_msgs/TFMessage")()
+        self.begun = self.begun or stamp
         for child, frame in list(self.frames.items()):
             x, y, z, w = frame.get("quaternion", (0.0, 0.0, 0.0, 1.0))
-            at = table.time_of(frame.get("stamp", "now"), stamp)
+            at = self.begun if frame.get("stamp") == "frozen" else table.time_of(frame.get("stamp", "now"), stamp)
             message.transforms.append(of(
                 "geometry_msgs/TransformStamped", child_frame_id=child,
                 header={"frame_id": frame["parent"], "stamp": {"secs": at.secs, "nsecs": at.nsecs}},
@@ -103,6 +105,7 @@ class ForeignTest(unittest.TestCase):
                     wrong.append("%s is right now for %s: take it off `open`" % (row["id"], taker))
             elif found:
                 wrong.append("%s: %s" % (row["id"], found))
+                print(taker, wrong[-1], flush=True)  # now: the rest may take long
         for line in opened:
             print("%s, not right yet: %s" % (taker, line))
         self.assertEqual([], wrong, "\n" + "\n".join(wrong))
