@@ -24,13 +24,10 @@ BEGINNING = """# What others publish
 
 What other programs leave at zero, repeat, stamp or name oddly, where that was read, and what this package makes of it. What can
 mean one thing only is taken as it is meant, and told once; what cannot is refused with a sentence. The page is printed from
-`test/foreign/traits/` by `test/foreign/write_page.py`. The tests send each row to what its section names; those of sections that
-say so are not sent yet, and hold as far as the code was read.
+`test/foreign/traits/` by `test/foreign/write_page.py`. The tests send each row to what its section names.
 
-%d rows: %d are taken, %d are refused%s. Tests send %d of them; the other %d were read, not tried.
+%d rows: %d are taken, %d are refused%s. Tests send them all.
 """
-# Of these no test sends the rows yet.
-UNSENT = set()
 
 
 def is_refused(row):
@@ -45,12 +42,10 @@ def page():
     rows = [row for _, row in table.all_rows()]
     refused = sum(map(is_refused, rows))
     opened = sum("open" in row for row in rows)
-    unsent = sum(kind in UNSENT for kind, _ in table.all_rows())
-    text = BEGINNING % (len(rows), len(rows) - refused, refused, "; not yet right: %d" % opened if opened else "",
-                        len(rows) - unsent, unsent)
+    text = BEGINNING % (len(rows), len(rows) - refused, refused, "; not yet right: %d" % opened if opened else "")
     for kind in TITLES:
-        text += "\n## %s\n\nTo %s.%s\n\n| who | what | here | read in |\n|---|---|---|---|\n" % (
-            TITLES[kind], TAKERS[kind], " Not sent by a test yet." if kind in UNSENT else "")
+        text += "\n## %s\n\nTo %s.\n\n| who | what | here | read in |\n|---|---|---|---|\n" % (
+            TITLES[kind], TAKERS[kind])
         for row in table.rows(kind):
             mark = " (not yet: %s)" % ", ".join(sorted(row["open"])) if "open" in row else ""
             text += "| %s | %s | %s%s | %s |\n" % (cell(row["who"]), cell(row["trait"]), cell(row["right"]), cell(mark), cell(row["source"]))
