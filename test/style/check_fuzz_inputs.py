@@ -8,7 +8,7 @@ from fuzz_inputs import INPUTS, NOT_A_NODE, Part, Without
 COMMENT = re.compile(r"//.*")
 TYPE = r"([A-Za-z][\w:]*)"
 HANDLERS = [re.compile(pattern) for pattern in (
-    r"\bsubscribe(?:Checked|Bounded)<\s*" + TYPE, r"\bInput<\s*" + TYPE + ">", r"\badvertiseService(?:BySpec)?<\s*" + TYPE,
+    r"\bsubscribe(?:Checked|Bounded)<\s*" + TYPE, r"\bInput<\s*" + TYPE + ">", r"\blisten<\s*" + TYPE + r">\(\s*Source::", r"\badvertiseService(?:BySpec)?<\s*" + TYPE,
     r"\bActionCaller<\s*" + TYPE, r"\bActionServer<\s*(?:\w+::)*" + TYPE + r">(?:::initialize|\s+\w+;)",
     r"\b(NavigatePathServer) \w+;", r"\bconversion\(&" + TYPE, r"\bmake_unique<Reconfigurable<\w+,\s*(?:\w+::)*" + TYPE,
     r"\bReconfigurable<\w+,\s*" + TYPE + r"> server_")]

@@ -97,15 +97,18 @@ INPUTS = {
         "MapLayersOptions": "config_message", "nav_msgs::OccupancyGrid": "layer_maps", "std_msgs::Empty": HANDED_OVER},
     "ros/layers/map_layers_node.h": {"sensor_msgs::LaserScan": "scan_message"},
     "ros/localization/marker_localizer_node.cpp": {
-        "MarkerLocalizerOptions": "vehicle_config_message", "Trigger": NO_REQUEST,
+        "CameraInfo": "camera_info_message", "Image": "image_message", "sensor_msgs::Image": "image_message", "MarkerLocalizerOptions": "vehicle_config_message",
+        "Trigger": NO_REQUEST},
+    "ros/localization/marker_localizer_node.h": {
         "sensor_msgs::CameraInfo": "camera_info_message", "sensor_msgs::Image": "image_message"},
     "ros/localization/vehicle_localizer_node.cpp": {
         "Message": Part(("sensor_messages", "each by its function")), "PoseWithCovarianceStamped": "sensor_messages",
-        "SensorMessages::depth": "sensor_messages", "SensorMessages::dvl": "sensor_messages",
-        "SensorMessages::marker": "sensor_messages", "SensorMessages::pressure": "sensor_messages",
-        "SensorMessages::usbl": "sensor_messages", "SetPose": "sensor_messages",
-        "VehicleLocalizerOptions": "vehicle_config_message", "geometry_msgs::Twist": "sensor_messages",
+        "SetPose": "sensor_messages", "Twist": "sensor_messages", "TwistWithCovarianceStamped": "sensor_messages",
+        "VehicleLocalizerOptions": "vehicle_config_message", "sensor_msgs::FluidPressure": "sensor_messages",
         "sensor_msgs::Imu": "sensor_messages", "std_srvs::Trigger": NO_REQUEST},
+    "ros/localization/vehicle_localizer_node.h": {
+        "Message": Part(("sensor_messages", "each by its function")),
+        "geometry_msgs::PoseWithCovarianceStamped": "sensor_messages"},
     "ros/mapping/mapping_services.cpp": {"ClearBoxService": Part(("clear_box_request", "ClearBox")),
                                          "SaveFile": Part(("file_name", "its name of a file")),
                                          "std_srvs::Empty": NO_REQUEST},

@@ -88,11 +88,6 @@ class FrameLookup {
   path::Path place(const nav_msgs::Path& message, const Placing& by) const;
   path::Path place(path::Path path, const Placing& by) const;  // of a file
 
-  // For what was measured at `stamp`; all else asks place(). 0: the latest, of any age. Throws TransformError with the
-  // reason: a frame that nothing names, a transform that has ceased, else tf2's.
-  geometry_msgs::TransformStamped transform(const std::string& target, const std::string& source,
-                                            const ros::Time& stamp = ros::Time(0)) const;
-
   // The frame by which tf joins the two: above both, or one of them; empty where nothing does.
   std::string commonFrame(const std::string& one, const std::string& other) const;
 
@@ -107,6 +102,10 @@ class FrameLookup {
   void clear() { buffer_.clear(); }
 
  private:
+  // For what was measured at `stamp`; 0: the latest, of any age. Throws TransformError with the reason: a frame that
+  // nothing names, a transform that has ceased, else tf2's.
+  geometry_msgs::TransformStamped transform(const std::string& target, const std::string& source,
+                                            const ros::Time& stamp = ros::Time(0)) const;
   Placed placedNow(const std::string& frame, const ros::Time& stamp, const Placing& by) const;
   geometry_msgs::TransformStamped nearest(const std::string& frame, const ros::Time& stamp,
                                           const Placing& by) const;

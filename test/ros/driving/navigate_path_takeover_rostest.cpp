@@ -112,12 +112,7 @@ class Takeover : public test::StillTest {
     options.check_map = false;
     options.tf_timeout = 3.0;  // a test that is kept waiting sends none meanwhile
     EXPECT_TRUE(test::waitFor([&] {
-      try {
-        transforms.transform(options.map_frame, options.base_frame);
-        return true;
-      } catch (const TransformError&) {
-        return false;
-      }
+      return !transforms.commonFrame(options.map_frame, options.base_frame).empty();
     }));
     return options;
   }
