@@ -156,6 +156,8 @@ CONTEXT = {
         extern localization::VehicleLocalizer localizer;""",
     "transform_rivals.h": "extern ros::Time stamp; extern std::string child; void beSilent(const std::string&);"
                           "extern const tf2_msgs::TFMessage& message; extern std::string node; extern bool is_static;",
+    "latched_message.h": """#include <nav_msgs/OccupancyGrid.h>
+        extern ros::Publisher maps; extern nav_msgs::OccupancyGrid message;""",
     "input_rules.h": "struct Options { std::string map_frame; double tf_timeout; }; extern Options options;",
     "input.h": """#include <sensor_msgs/Image.h>
         extern ros::NodeHandle nh; extern FrameTransforms transforms; void hold(const std::string&);

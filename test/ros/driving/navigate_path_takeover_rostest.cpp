@@ -111,9 +111,8 @@ class Takeover : public test::StillTest {
     NavigatePathOptions options;
     options.check_map = false;
     options.tf_timeout = 3.0;  // a test that is kept waiting sends none meanwhile
-    EXPECT_TRUE(test::waitFor([&] {
-      return !transforms.commonFrame(options.map_frame, options.base_frame).empty();
-    }));
+    EXPECT_TRUE(test::waitFor(
+        [&] { return !transforms.commonFrame(options.map_frame, options.base_frame).empty(); }));
     return options;
   }
   void stop(bool on) {
