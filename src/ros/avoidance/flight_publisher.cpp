@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "grid_path_planner/AvoidanceStatus.h"
-
 #include "ros/guard/outgoing/latched_message.h"
 
 namespace grid_path_planner::nodes {

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
-
 #include "ros/guard/outgoing/latched_message.h"
 
 namespace grid_path_planner::nodes {

@@ -6,9 +6,8 @@
 
 #include <boost/make_shared.hpp>
 
-#include "vision/marker_picture.h"
-
 #include "ros/guard/outgoing/latched_message.h"
+#include "vision/marker_picture.h"
 
 namespace grid_path_planner::nodes {
 

@@ -4,7 +4,6 @@
 
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/ros/conversions.h"
-
 #include "ros/guard/outgoing/latched_message.h"
 
 namespace grid_path_planner::nodes {
