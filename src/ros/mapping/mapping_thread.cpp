@@ -1,6 +1,7 @@
 #include "ros/mapping/mapping_thread.h"
 
-#include <exception>
+#include <chrono>
+#include <future>
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
@@ -12,20 +13,12 @@ using base::StopSource;
 using base::TaskQueue;
 
 void MappingThread::run(const Work& work) {
-  std::exception_ptr thrown =
-      std::make_exception_ptr(InputError("the mapping ends and does nothing more"));
-  const auto task = worker_.post(
-      [&](const StopSource&) {
-        try {
-          work(map_);
-          thrown = nullptr;
-        } catch (...) {
-          thrown = std::current_exception();
-        }
-      },
-      "", TaskQueue::Turn::NEXT);
-  task->wait();
-  if (thrown) std::rethrow_exception(thrown);
+  std::packaged_task<void()> task([&] { work(map_); });
+  std::future<void> result = task.get_future();
+  worker_.post([&](const StopSource&) { task(); }, "", TaskQueue::Turn::NEXT)->wait();
+  if (result.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    throw InputError("the mapping ends and does nothing more");
+  result.get();
 }
 
 void MappingThread::post(const std::string& slot, Work work) {

@@ -1,6 +1,5 @@
 #include "ros/mapping/projected_map_node.h"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -23,14 +22,10 @@ using mapping::checkProjectedMapOptions;
 using mapping::ignoredParameter;
 using mapping::MapModel;
 using mapping::ProjectedMapOptions;
-using mapping::ProjectionReference;
 
 namespace {
 
 constexpr double kFirstCloudWait = 5.0;  // s of the wall clock without the first cloud
-constexpr double kDecayPeriod = 1.0;     // s of ROS time; decay visits every occupied voxel
-constexpr double kLongestDecay = 10.0;   // s of ROS time that a step of the decay counts at most
-constexpr double kOldestDepth = 3.0;     // s of ROS time, of the vehicle's that the band refers to
 
 void warnIgnoredParameters(const ros::NodeHandle& private_nh, std::vector<std::string>& known) {
   for (const std::string& name : unknownParameters(private_nh, known)) {
@@ -95,25 +90,19 @@ std::unique_ptr<MappingThread> makeThread(const ProjectedMapOptions& options,
   }
 }
 
-bool followsVehicle(const MapModel& map) {
-  return map.options().projection.reference == ProjectionReference::VEHICLE;
-}
-
 }  // namespace
 
 ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                                    const NodeFiles& files)
-    : nh_(nh), files_(files), transforms_(nh), service_spinner_(1, &service_queue_) {
+    : files_(files), transforms_(nh), service_spinner_(1, &service_queue_) {
   ProjectedMapOptions options = loadOptions(private_nh, files);
   ROS_INFO_STREAM(
       memoryLimitLine("The 3-D map", options.octree.memory_limit, memoryLimitOf(options.octree)));
   if (options.autosave_period > 0.0)
     autosave_ = std::make_unique<MapAutosave>(files.saveFolder().path(), private_nh.getNamespace(),
                                               options);
-  const ProjectedMapOptions with_file = withFile(options);
+  thread_ = makeThread(withFile(options, ""), autosave_.get());
   filename_ = options.filename;
-  loaded_ = with_file.filename;
-  thread_ = makeThread(with_file, autosave_.get());
   thread_->run([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
   options.filename = filename_;
   clouds_ = std::make_unique<Clouds>(nh, "cloud_in", cloudRules(options), transforms_,
@@ -123,39 +112,34 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   service_nh.setCallbackQueue(&service_queue_);
   ros::NodeHandle private_service_nh(private_nh);
   private_service_nh.setCallbackQueue(&service_queue_);
-  const auto on_change = [this] { postPublishing(); };
-  map_publisher_ = std::make_unique<ProjectedMapPublisher>(nh, options.latch, on_change);
-  octree_publisher_ =
-      std::make_unique<OctreePublisher>(nh, service_nh, options.latch, *thread_, on_change);
+  publications_ =
+      std::make_unique<MappingPublications>(nh, service_nh, *thread_, transforms_, options);
   services_ = std::make_unique<MappingServices>(
       private_service_nh, *thread_, files_,
-      MappingServices::Listener{on_change, [this] { forgetAll(); },
+      MappingServices::Listener{[this] { publications_->post(); }, [this] { forgetAll(); },
                                 [this](MapModel& map) { insertAll(map); }});
   diagnostics_ = std::make_unique<MappingDiagnostics>(nh, private_nh, *clouds_, *thread_,
-                                                      *map_publisher_, *octree_publisher_,
+                                                      publications_->map(), publications_->octree(),
                                                       autosave_.get(), options.autosave_period);
   service_spinner_.start();
 
   if (filename_.empty())
     silence_timer_ = guardedTimerOnce(nh, kFirstCloudWait, [this] { warnOfSilence(); });
-  startPublishing(options);
-  if (autosave_) startAutosave(options.autosave_period);
-  complete_ = true;
+  if (autosave_) startAutosave(nh, options.autosave_period);
   reconfigurable_ = std::make_unique<Reconfigurable<ProjectedMapConfig, ProjectedMapOptions>>(
       private_nh, options, [this](const ProjectedMapOptions& wanted) { use(wanted); });
 }
 
 ProjectedMapNode::~ProjectedMapNode() {
   silence_timer_.stop();
-  publish_timer_.stop();
-  heartbeat_timer_.stop();
+  publications_->stop();
   autosave_timer_.stop();
   service_spinner_.stop();
   saveAtTheEnd();
   clouds_->shutdown();  // asks the master, which may not answer
   reconfigurable_.reset();
   services_->shutdown();
-  octree_publisher_->shutdown();
+  publications_->shutdown();
   thread_->stop();
 }
 
@@ -170,42 +154,33 @@ void ProjectedMapNode::saveAtTheEnd() {
 }
 
 // The name of a file is looked for once: what was loaded may be gone when another option changes.
-ProjectedMapOptions ProjectedMapNode::withFile(ProjectedMapOptions options) const {
+ProjectedMapOptions ProjectedMapNode::withFile(ProjectedMapOptions options,
+                                               const std::string& loaded) const {
   if (options.filename == filename_)
-    options.filename = loaded_;
+    options.filename = loaded;
   else if (!options.filename.empty())
     options.filename = files_.toRead("filename", options.filename, octreeFiles());
   return options;
 }
 
 void ProjectedMapNode::use(const ProjectedMapOptions& options) {
-  const ProjectedMapOptions with_file = withFile(options);
   const EndOfNode end;
   thread_->run([&](MapModel& map) {
-    map.setOptions(with_file, end.token());
+    map.setOptions(withFile(options, map.options().filename), end.token());
     if (autosave_) autosave_->setOptions(options);
   });
   filename_ = options.filename;
-  loaded_ = with_file.filename;
   clouds_->setRules(cloudRules(options));
-  startPublishing(options);
-  postPublishing();
-}
-
-void ProjectedMapNode::startPublishing(const ProjectedMapOptions& options) {
-  publish_timer_ = guardedTimer(nh_, 1.0 / options.publish_rate, [this] { postPublishing(); });
-  heartbeat_timer_.stop();
-  if (options.heartbeat_period <= 0.0) return;
-  heartbeat_timer_ = guardedTimer(nh_, options.heartbeat_period, [this] {
-    thread_->post("heartbeat", [this](MapModel& map) { publishHeartbeat(map); });
-  });
+  publications_->use(options);
+  publications_->post();
 }
 
 // Half of the period is left for the writing.
-void ProjectedMapNode::startAutosave(double period) {
-  thread_->run(
-      [this](MapModel&) { map_publisher_->countCloud(autosave_->newestCloud(), ros::TIME_MAX); });
-  autosave_timer_ = guardedTimer(nh_, period / 2.0, [this] {
+void ProjectedMapNode::startAutosave(const ros::NodeHandle& nh, double period) {
+  thread_->run([this](MapModel&) {
+    publications_->map().countCloud(autosave_->newestCloud(), ros::TIME_MAX);
+  });
+  autosave_timer_ = guardedTimer(nh, period / 2.0, [this] {
     thread_->post("autosave", [this](MapModel& map) { save(map, MapAutosave::When::IF_DUE); });
   });
 }
@@ -232,12 +207,6 @@ void ProjectedMapNode::postInsertion() {
   thread_->post("insert", [this](MapModel& map) { insertNext(map); });
 }
 
-// A nodelet's subscribers may be there, in another thread, before it is complete.
-void ProjectedMapNode::postPublishing() {
-  if (!complete_) return;
-  thread_->post("publish", [this](MapModel& map) { publish(map); });
-}
-
 // One cloud a task, so that services and publications are done in between.
 void ProjectedMapNode::insertNext(MapModel& map) {
   if (insertOne(map)) postInsertion();
@@ -251,7 +220,7 @@ bool ProjectedMapNode::insertOne(MapModel& map) {
 void ProjectedMapNode::insert(MapModel& map, const Clouds::Arrival& cloud) {
   const auto frames = framesOf(cloud.poses, map.options().cloud.filter_ground);
   const MapModel::Inserted inserted = map.insert(finitePoints(*cloud.message), frames);
-  map_publisher_->countCloud(cloud.message->header.stamp, ros::Time::now());
+  publications_->map().countCloud(cloud.message->header.stamp, ros::Time::now());
   diagnostics_->recordInsertion(inserted);
   static LogThrottle no_ground(10.0), full(10.0), outside(10.0);
   if (inserted.ground_missed)
@@ -269,61 +238,9 @@ void ProjectedMapNode::insert(MapModel& map, const Clouds::Arrival& cloud) {
                                               << " points of a cloud lie outside the tree");
 }
 
-void ProjectedMapNode::publish(MapModel& map) {
-  if (!ros::Time::isValid()) return;
-  decay(map);
-  const ros::Time stamp = ros::Time::now();
-  try {
-    if (updateVehicleHeight(map))
-      map_publisher_->publish(map, stamp);
-    else
-      map_publisher_->owe();
-  } catch (const InputError& error) {
-    static LogThrottle seldom(10.0);
-    ROS_ERROR_STREAM_COND(seldom.isDue(), "projected_map stays as it was: " << error.what());
-  }
-  static LogThrottle cut(10.0);
-  if (const double area = map.areaLeftOut(); area > 0.0)
-    ROS_WARN_STREAM_COND(cut.isDue(), "projected_map leaves out "
-                                          << area << " m^2 that were seen: "
-                                          << "they do not fit into projection_max_cells");
-  octree_publisher_->publish(map, stamp);
-}
-
 void ProjectedMapNode::save(const MapModel& map, MapAutosave::When when) {
   const LastWork work;
-  autosave_->save(map, map_publisher_->newestCloud(), when);
-}
-
-void ProjectedMapNode::publishHeartbeat(MapModel& map) {
-  map_publisher_->publishHeartbeat(map.options().frame_id);
-}
-
-// Less than passed by a clock that was put forward: in that time nothing could have been seen again.
-void ProjectedMapNode::decay(MapModel& map) {
-  const ros::Time now = ros::Time::now();
-  const double passed = now.toSec() - decayed_until_.toSec();
-  if (passed >= 0.0 && passed < kDecayPeriod) return;
-  if (map.options().octree.decay_time > 0.0 && passed > 0.0 && !decayed_until_.isZero())
-    map.decay(std::min(passed, std::max(kLongestDecay, 2.0 / map.options().publish_rate)));
-  decayed_until_ = now;
-}
-
-// Returns whether the height that the band refers to is known.
-bool ProjectedMapNode::updateVehicleHeight(MapModel& map) {
-  if (!followsVehicle(map)) return true;
-  const ProjectedMapOptions& options = map.options();
-  try {
-    const Placed vehicle = transforms_.placeVehicle(
-        {options.frame_id, kOldestDepth, Moving::WITH_VEHICLE, options.base_frame_id});
-    map.setVehicleHeight(vehicle.pose.translation().z());
-    return true;
-  } catch (const TransformError& error) {
-    static LogThrottle seldom(10.0);
-    ROS_WARN_STREAM_COND(seldom.isDue(),
-                         "projected_map waits for the vehicle's depth: " << error.what());
-    return false;
-  }
+  autosave_->save(map, publications_->map().newestCloud(), when);
 }
 
 }  // namespace grid_path_planner::nodes

@@ -24,7 +24,6 @@
 #include <ros/steady_timer.h>
 #include <sensor_msgs/PointCloud2.h>
 
-#include <atomic>
 #include <memory>
 #include <string>
 
@@ -33,10 +32,9 @@
 #include "ros/input/input.h"
 #include "ros/mapping/map_autosave.h"
 #include "ros/mapping/mapping_diagnostics.h"
+#include "ros/mapping/mapping_publications.h"
 #include "ros/mapping/mapping_services.h"
 #include "ros/mapping/mapping_thread.h"
-#include "ros/mapping/octree_publisher.h"
-#include "ros/mapping/projected_map_publisher.h"
 
 namespace grid_path_planner {
 class ProjectedMapConfig;
@@ -60,13 +58,13 @@ class ProjectedMapNode {
  private:
   using Clouds = Input<sensor_msgs::PointCloud2>;
 
-  mapping::ProjectedMapOptions withFile(mapping::ProjectedMapOptions options) const;
+  // With the path of the file that the option names: `loaded`, where it names the same as before.
+  mapping::ProjectedMapOptions withFile(mapping::ProjectedMapOptions options,
+                                        const std::string& loaded) const;
   void use(const mapping::ProjectedMapOptions& options);
-  void startPublishing(const mapping::ProjectedMapOptions& options);
   void warnOfSilence() const;
   void postInsertion();
-  void postPublishing();
-  void startAutosave(double period);
+  void startAutosave(const ros::NodeHandle& nh, double period);
   void saveAtTheEnd();
 
   // In the map's thread
@@ -75,34 +73,22 @@ class ProjectedMapNode {
   void insertNext(mapping::MapModel& map);
   bool insertOne(mapping::MapModel& map);
   void insert(mapping::MapModel& map, const Clouds::Arrival& cloud);
-  void publish(mapping::MapModel& map);
-  void publishHeartbeat(mapping::MapModel& map);
   void save(const mapping::MapModel& map, MapAutosave::When when);
-  void decay(mapping::MapModel& map);
-  bool updateVehicleHeight(mapping::MapModel& map);
 
-  ros::NodeHandle nh_;
   NodeFiles files_;
-  std::string filename_;  // the option that was used last, and the file that it named
-  std::string loaded_;
+  std::string filename_;  // the option that was used last
   FrameTransforms transforms_;
   std::unique_ptr<Clouds> clouds_;
   std::unique_ptr<MapAutosave> autosave_;  // null: none
   std::unique_ptr<MappingThread> thread_;
-  ros::Time decayed_until_;  // of the map's thread
-  std::atomic<bool> complete_{false};
 
   ros::CallbackQueue service_queue_;
   ros::AsyncSpinner service_spinner_;
-  std::unique_ptr<ProjectedMapPublisher> map_publisher_;
-  std::unique_ptr<OctreePublisher> octree_publisher_;
+  std::unique_ptr<MappingPublications> publications_;
   std::unique_ptr<MappingServices> services_;
   std::unique_ptr<MappingDiagnostics> diagnostics_;
   std::unique_ptr<Reconfigurable<ProjectedMapConfig, mapping::ProjectedMapOptions>> reconfigurable_;
-  ros::SteadyTimer publish_timer_;
-  ros::SteadyTimer heartbeat_timer_;
-  ros::SteadyTimer autosave_timer_;
-  ros::SteadyTimer silence_timer_;
+  ros::SteadyTimer autosave_timer_, silence_timer_;
 };
 
 }  // namespace grid_path_planner::nodes

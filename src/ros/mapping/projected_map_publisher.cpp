@@ -24,12 +24,7 @@ ProjectedMapPublisher::ProjectedMapPublisher(ros::NodeHandle nh, bool latch,
 void ProjectedMapPublisher::publish(MapModel& map, const ros::Time& now) {
   if (!topic_.hasSubscribers()) return;
   newest_cloud_ = std::min(newest_cloud_, now);  // ROS time went back
-  try {
-    send(map, now, owes_map_);
-  } catch (...) {
-    owes_map_ = true;
-    throw;
-  }
+  send(map, now, owes_map_);
   owes_map_ = false;
   newest_published_cloud_ = newest_cloud_;
 }

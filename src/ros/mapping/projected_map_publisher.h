@@ -36,9 +36,9 @@ class ProjectedMapPublisher {
 
   // Publishes the changes since the last call, if there are subscribers. In the mapping thread.
   void publish(mapping::MapModel& map, const ros::Time& now);
-  // Instead, while the map cannot be made. In the mapping thread.
+  // While the map cannot be made: the next one that is sent is whole. In the mapping thread.
   void owe();
-  // Since the last publication failed, or owe(). Thread-safe.
+  // Since owe(). Thread-safe.
   bool owesMap() const { return owes_map_; }
 
   // A cloud of this stamp is in the tree. Stamps of clouds may be any number: what lies after `now`
