@@ -38,12 +38,10 @@ LARGE_CLASSES = {  # below src/ros/: members
     "FlightCommander": 21,
     "GoToPoseNode": 32,
     "LocalPlannerNode": 31,
-    "MapAutosave": 19,
     "MapLayersNode": 28,
     "MarkerLocalizerNode": 22,
     "NavigatePathNode": 31,
     "PanelWidgets": 20,
-    "ProjectedMapNode": 24,
     "SimulatorNode": 25,
     "VehicleLocalizerNode": 24,
 }

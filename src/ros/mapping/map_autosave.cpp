@@ -7,7 +7,6 @@
 #include <memory>
 #include <utility>
 
-#include "base/current_error.h"
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
@@ -17,7 +16,6 @@
 
 namespace grid_path_planner::nodes {
 
-using base::currentErrorText;
 using base::decimalText;
 using base::InputError;
 using base::RegularFile;
@@ -37,27 +35,15 @@ constexpr std::size_t kBeginning = 4096;  // bytes, that hold the lines before t
 
 MapAutosave::MapAutosave(const std::string& folder, const std::string& node,
                          const ProjectedMapOptions& options)
-    : folder_(folder), node_(node), run_(runIdAtStart()), frame_id_(options.frame_id) {
-  nameFile();
+    : folder_(folder), node_(node), run_(runIdAtStart()), file_(fileOf(run_)), options_(options) {
   if (run_.empty())
     noteProblem(no_run_);
   else
     removeOldKeptFiles(file_);
-  setOptions(options);
-}
-
-void MapAutosave::nameFile() {
-  file_ = fileOf(run_);
 }
 
 std::string MapAutosave::fileOf(const std::string& run) const {
   return folder_ + "/" + keptFileName(node_, run, ".ot");
-}
-
-void MapAutosave::setOptions(const ProjectedMapOptions& options) {
-  octree_ = options.filename;
-  std::replace(octree_.begin(), octree_.end(), '\n', ' ');
-  resolution_ = options.octree.resolution;
 }
 
 // A roscore that was restarted has another run, under which a node that is killed now starts again. It has a
@@ -73,14 +59,16 @@ void MapAutosave::followMaster() {
   }
   restarts_ = restarts;
   if (std::exchange(run_, run) == run) return;
-  replaced_ = file_;
-  nameFile();
+  replaced_ = std::exchange(file_, fileOf(run_));
 }
 
 // A file has its own resolution.
 std::string MapAutosave::marker() const {
-  return "run " + run_ + ", frame " + frame_id_ +
-         (octree_.empty() ? ", resolution " + decimalText(resolution_) : ", file " + octree_);
+  std::string octree = options_.filename;
+  std::replace(octree.begin(), octree.end(), '\n', ' ');
+  return "run " + run_ + ", frame " + options_.frame_id +
+         (octree.empty() ? ", resolution " + decimalText(options_.octree.resolution)
+                         : ", file " + octree);
 }
 
 // What the file says of itself; none where it is not there, or of another map.
@@ -102,7 +90,8 @@ std::string MapAutosave::begin() const {
     return "";
   }
   ROS_WARN_STREAM("Begins with the map that was kept in "
-                  << file_ << (octree_.empty() ? "" : ", which began with " + octree_)
+                  << file_
+                  << (options_.filename.empty() ? "" : ", which began with " + options_.filename)
                   << "; the service ~reset forgets it");
   return file_;
 }
@@ -135,7 +124,7 @@ void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud, When 
 // As far as what was told to the writer is.
 bool MapAutosave::isInFile(const MapModel& map) const {
   std::error_code ignored;  // then it is not there
-  return map.revision() == saved_revision_ && !failed_ && state().problem.empty() &&
+  return map.revision() == saved_revision_ && state().problem.empty() &&
          std::filesystem::exists(file_, ignored);
 }
 
@@ -159,15 +148,13 @@ void MapAutosave::write(const std::string& file, const std::string& text,
     std::error_code ignored;  // shows in the writing
     std::filesystem::create_directories(folder_, ignored);
     writeFileAtomically(file, text);
-  } catch (...) {
-    failed_ = true;  // before its text, for which there may be no memory
-    problem = currentErrorText();
+  } catch (const InputError& error) {
+    problem = error.what();
     noteProblem(problem);
   }
   std::lock_guard<std::mutex> lock(mutex_);
   state_.newest_cloud = newest_cloud;
   if (!problem.empty()) return;
-  failed_ = false;
   state_.problem.clear();
   written_ = Clock::now();
   unsaved_since_.reset();  // what came meanwhile is noted again soon

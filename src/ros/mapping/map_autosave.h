@@ -16,7 +16,6 @@
 
 #include <ros/time.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -41,7 +40,7 @@ class MapAutosave {
               const mapping::ProjectedMapOptions& options);
 
   // As the options there, from now on. Not while save() runs.
-  void setOptions(const mapping::ProjectedMapOptions& options);
+  void setOptions(const mapping::ProjectedMapOptions& options) { options_ = options; }
 
   // The file of this run, "" where there is none, and the newest cloud in it. Says what was found.
   std::string begin() const;
@@ -69,7 +68,6 @@ class MapAutosave {
   std::string marker() const;
   void noteUnsaved();
   std::optional<KeptMap> kept() const;
-  void nameFile();
   std::string fileOf(const std::string& run) const;
   bool isInFile(const mapping::MapModel& map) const;
   void noteProblem(const std::string& problem);
@@ -80,14 +78,11 @@ class MapAutosave {
   std::string no_run_ = "the master has no /run_id, as roscore sets it";  // why
   std::string file_;                                                      // its path, of the run
   std::string replaced_;  // of the run before, gone once file_ is written
-  std::string frame_id_;
-  std::string octree_;  // in one line
-  double resolution_ = 0.0;
+  mapping::ProjectedMapOptions options_;
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   unsigned restarts_ = 0;  // of the master, before run_
 
   std::uint64_t saved_revision_ = 0;  // of the mapping thread, as the next
-  std::atomic<bool> failed_{false};   // the last writing
   CpuShare share_{0.2};
 
   mutable std::mutex mutex_;
