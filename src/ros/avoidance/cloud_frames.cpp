@@ -69,7 +69,8 @@ CloudFrames::CloudFrames(const ros::NodeHandle& nh, const LocalPlannerOptions& o
   sensors_.resize(topics.size());
   for (std::size_t i = 0; i < topics.size(); ++i) {
     Sensor& sensor = sensors_[i];
-    sensor.clouds = std::make_unique<Clouds>(nh, topics[i], cloudRules(options), transforms, [] {});
+    sensor.clouds = std::make_unique<Clouds>(nh, topics[i], cloudRules(options), transforms,
+                                             Clouds::OnReady{[] {}});
     sensor.camera_subscriber = subscribeChecked<sensor_msgs::CameraInfo>(
         nh, cameraTopic(topics[i]), 1,
         [&sensor](const sensor_msgs::CameraInfo& camera) { sensor.camera = camera; });

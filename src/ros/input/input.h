@@ -1,24 +1,18 @@
-// An input of a node: each message that is of use by the rules, with where it was measured. All that a node subscribes to
-// of what sensors say comes by this. The rules of a sonar's images:
+// One input of a node: a topic, the rules by which its messages are of use, and where each was measured. Sensors are subscribed
+// to by this alone.
 //
-//   InputRules rules;                        // what is not said here is as in input_rules.h
-//   rules.oldest = 2.0;                      // s; older images, and such as are 10 s ahead, are refused
-//   rules.order = InputRules::Order::RISING; // one that is not newer than the last is refused
-//   rules.frames = {"map", "base_link"};     // an image waits until tf leads from its frame into these at its stamp,
-//   rules.tf_wait = 0.5;                     // so long at most
-//   rules.most_waiting = 5;                  // more than these are not kept meanwhile
-//   rules.silent_after = 3.0;                // s; then problem() says so
-//   Input<sensor_msgs::Image> images(nh, "sonar/image", rules, transforms, [&](const auto& image) {
-//     draw(*image.message, image.poses[0], image.poses[1]);  // in the map, and on the vehicle
+//   InputRules rules = rulesOf("map_layers", "scan");  // a row of the table in input_rules.cpp, with its reason
+//   rules.frames = {"map", "base_link"};
+//   rules.tf_wait = options.tf_timeout;
+//   Input<sensor_msgs::LaserScan> scans(nh, "scan", rules, transforms, [&](const auto& scan) {
+//     draw(*scan.message, scan.poses[0], scan.poses[1]);  // of the scan's frame in "map" and in "base_link", at its stamp
 //   });
-//   if (const auto why = images.problem()) hold(*why);
+//   if (const auto problem = scans.problem()) hold(*problem);
 //
-// The rules of a node's input are a row of the table in input_rules.cpp, with the reason why they are so.
-//
-// Guaranteed: `use` is called by the queue of `nh`, for one message after the other; a std::exception of it, but std::bad_alloc,
-// refuses its message. What is refused is told in the log, the first of a reason at once, then one in 5 s, and counted.
-// ROS time that goes back forgets what waits. What comes while there is no ROS time is refused. Lengths are checked and what
-// waits in roscpp is bounded (bounded_subscription.h).
+// Guaranteed: `use` is called by the thread of `nh`'s queue, for one message after the other, also where several threads serve
+// the queue. A std::exception that `use` throws refuses the message, except std::bad_alloc. Refusals are counted and logged:
+// the first of a reason at once, then one in 5 s. A message without ROS time is refused. When ROS time goes back, what waits is
+// dropped. Lengths are checked, and what waits in roscpp is bounded, before a message is unpacked (bounded_subscription.h).
 #pragma once
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
@@ -53,29 +47,35 @@ class InputBase {
   InputBase(const InputBase&) = delete;
   InputBase& operator=(const InputBase&) = delete;
 
-  // Why nothing of use comes, in one sentence, for whoever holds, the diagnostics and the log alike; none: all is well. What
-  // stands before its ": " stays the same while it is so. Thread-safe, as all that does not say otherwise.
+  struct OnReady {
+    std::function<void()> call;
+  };
+
+  // Why no message is used now, in one sentence for holds, diagnostics and the log; none: all is well. With `silent_after`, no
+  // message was used for that long, or none yet; without, the newest message was refused, or waits for tf. The text before
+  // the first ": " stays the same as long as the problem does. Thread-safe, as all that does not say otherwise.
   std::optional<std::string> problem() const { return judge_.problem(now()); }
   InputCounts counts() const { return judge_.counts(); }
-  // s of the wall clock in which nothing came at all, of use or not, from the start or beginAnew() on.
+  // s of the wall clock since the last message came, whether it was used or refused; before the first, since the start or
+  // beginAnew(). problem() counts from the last that was used instead.
   double silence() const { return judge_.silence(now()); }
-  // The stamp of the newest that was used, at most ROS time then; 0 where none was.
+  // The stamp of the newest message that was used, or the ROS time then where that was less; 0 before the first.
   ros::Time newest() const { return judge_.newest(); }
   const std::string& topic() const { return topic_; }
 
-  // Forgets what waits. `why`, in a few words, is the reason in counts().
+  // Drops what waits. `why`, in a few words, is the reason in counts().
   void clear(const std::string& why) { judge_.clear(why); }
-  // And what came before: as at the start. ROS time that goes back does so.
+  // The same, and forgets all that was used before, as at the start. Called where ROS time goes back.
   void beginAnew(const std::string& why) { judge_.beginAnew(why, now()); }
-  // Nothing comes any more. Asks the master, which may not answer.
+  // Ends the subscription. Waits for an answer of the master.
   void shutdown();
-  // In the thread of the queue.
+  // For messages from now on; what roscpp keeps stays bounded as at the start. In the thread of the queue.
   void setRules(const InputRules& rules);
-  // Looks up what waits: in the thread of the queue, for whoever does not wait for the next 10 ms.
+  // Looks up transforms for what waits now, instead of within 10 ms. In the thread of the queue.
   void poll();
 
  protected:
-  // `on_ready` is called by the queue where there is one to use. `transforms` outlives this.
+  // `on_ready` is called by the queue when a message can be used. `transforms` outlives this.
   InputBase(const ros::NodeHandle& nh, const std::string& topic, const InputRules& rules,
             const FrameLookup& transforms, std::function<void()> on_ready);
 
@@ -109,8 +109,8 @@ class Input : public InputBase {
  public:
   struct Arrival {
     boost::shared_ptr<const Message> message;
-    std::vector<Eigen::Isometry3d>
-        poses;  // of its frame in each of the rules' frames, at its stamp
+    // poses[i]: of the message's frame in the rules' frames[i], at its stamp.
+    std::vector<Eigen::Isometry3d> poses;
   };
   using Use = std::function<void(const Arrival&)>;
 
@@ -119,21 +119,22 @@ class Input : public InputBase {
       : InputBase(nh, topic, rules, transforms, [this] { useAll(); }), use_(std::move(use)) {
     subscribe(topic, rules);
   }
-  // For another thread, which uses them by useNext(): `on_ready` is called where there is one, in the queue's.
+  // For another thread that calls useNext(). `on_ready` is called by the queue when a message can be used.
   Input(const ros::NodeHandle& nh, const std::string& topic, const InputRules& rules,
-        const FrameLookup& transforms, std::function<void()> on_ready)
-      : InputBase(nh, topic, rules, transforms, std::move(on_ready)) {
+        const FrameLookup& transforms, OnReady on_ready)
+      : InputBase(nh, topic, rules, transforms, std::move(on_ready.call)) {
     subscribe(topic, rules);
   }
   ~Input() override { shutdown(); }
 
-  // The oldest that is ready. Returns whether there was one. In any thread.
+  // Uses the oldest message that can be used. Returns whether there was one. In any thread.
   bool useNext(const Use& use) {
     const auto item = take();
     if (item) used(*item, use);
     return item.has_value();
   }
-  // As if it had come by the topic, in the thread of the queue. Why it is refused, as far as that is known at once.
+  // The same as if `message` had come by the topic; in the thread of the queue. Returns why it is refused, if that is known
+  // at once.
   std::optional<std::string> give(const boost::shared_ptr<const Message>& message) {
     const auto bytes = ros::serialization::serializationLength(*message);
     const auto* header = ros::message_traits::header(*message);

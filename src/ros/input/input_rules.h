@@ -25,8 +25,8 @@ struct InputRules {
   };
   enum class Order {
     ANY,     // each is used as soon as tf leads to its frame, whatever was used before
-    RISING,  // by stamp: each waits for the one before, and until ROS time is at its stamp; one that is not newer than the
-             // last of its frame is refused
+    RISING,  // by stamp: each waits for the one before, and until ROS time is at its stamp; a message that is not newer than
+             // the last of the same frame_id is refused
     NEWEST,  // not newer is refused too; one that waits is dropped where a newer one of its frame can be used
   };
   enum class Silence {
@@ -36,17 +36,22 @@ struct InputRules {
 
   Stamp stamp = Stamp::REQUIRED;
   bool frame_required =
-      true;                  // what a sensor measured has to say where; else no frame is the map's
-  double most_ahead = 10.0;  // s after ROS time; beyond it is refused
+      true;  // false: a message without frame_id counts as in each of `frames` itself
+  double most_ahead =
+      10.0;  // s after ROS time; a message further ahead is refused. Within it RISING waits for its time
   double oldest =
-      10.0;  // s before ROS time when it comes; older is refused. By default what tf keeps
+      10.0;  // s before ROS time, when it comes; older is refused. The default is what tf keeps
   Order order = Order::RISING;
-  std::vector<std::string> frames;  // tf must lead from the message's into each, at its stamp
-  double tf_wait = 1.0;             // s of the wall clock; then it is refused
-  std::size_t most_waiting =
-      10;  // for tf, and as many to be used; 1: roscpp keeps the newest only, too
-  std::size_t most_bytes = 64 * kMebibyte;  // of those that wait, or one message
-  double silent_after = kNever;             // s
+  std::vector<std::string> frames;  // tf must lead from the message's frame into each, at its stamp
+  double tf_wait =
+      1.0;  // s of the wall clock from its arrival, for tf and ROS time; then it is refused
+  // Messages that wait for tf, and as many again that wait to be used; beyond it one is dropped (input_judge.h says which).
+  // 1: of those that roscpp has, the newest alone is unpacked.
+  std::size_t most_waiting = 10;
+  std::size_t most_bytes =
+      64 * kMebibyte;  // of all that wait together; one message alone may be larger
+  double silent_after =
+      kNever;  // s without a message that is used, also before the first; then problem()
   Silence silence = Silence::BY_ARRIVAL;
 };
 

@@ -113,7 +113,7 @@ void MarkerLocalizerNode::listen(ros::NodeHandle& private_nh) {
       nh_, "camera/camera_info", rulesOf("marker_localizer", "camera/camera_info"), transforms_,
       [this](const Input<CameraInfo>::Arrival& info) { onInfo(*info.message); });
   images_ = std::make_unique<Input<Image>>(nh_, "camera/image_raw", imageRules(), transforms_,
-                                           [this] { lookAtNext(); });
+                                           Input<Image>::OnReady{[this] { lookAtNext(); }});
   using std_srvs::Trigger;
   learn_panel_ =
       advertiseService<Trigger>(private_nh, "learn_panel", [this](auto&, auto& response) {

@@ -106,7 +106,7 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
   thread_->run([&](MapModel& map) { options = map.options(); });  // a file has its own resolution
   options.filename = filename_;
   clouds_ = std::make_unique<Clouds>(nh, "cloud_in", cloudRules(options), transforms_,
-                                     [this] { postInsertion(); });
+                                     Clouds::OnReady{[this] { postInsertion(); }});
 
   ros::NodeHandle service_nh(nh);
   service_nh.setCallbackQueue(&service_queue_);
@@ -131,9 +131,6 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
 }
 
 ProjectedMapNode::~ProjectedMapNode() {
-  silence_timer_.stop();
-  publications_->stop();
-  autosave_timer_.stop();
   service_spinner_.stop();
   saveAtTheEnd();
   clouds_->shutdown();  // asks the master, which may not answer
