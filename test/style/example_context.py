@@ -156,12 +156,14 @@ CONTEXT = {
         extern localization::VehicleLocalizer localizer;""",
     "transform_rivals.h": "extern ros::Time stamp; extern std::string child; void beSilent(const std::string&);"
                           "extern const tf2_msgs::TFMessage& message; extern std::string node; extern bool is_static;",
+    "end_without_master.h": "bool isAskedToEnd();",
     "latched_message.h": """#include <nav_msgs/OccupancyGrid.h>
         extern ros::Publisher maps; extern nav_msgs::OccupancyGrid message;""",
     "input_rules.h": "struct Options { std::string map_frame; double tf_timeout; }; extern Options options;",
-    "input.h": """#include <sensor_msgs/Image.h>
+    "input.h": """#include <sensor_msgs/LaserScan.h>
+        struct Options { double tf_timeout; }; extern Options options;
         extern ros::NodeHandle nh; extern FrameTransforms transforms; void hold(const std::string&);
-        void draw(const sensor_msgs::Image&, const Eigen::Isometry3d& in_map, const Eigen::Isometry3d& on_vehicle);""",
+        void draw(const sensor_msgs::LaserScan&, const Eigen::Isometry3d& in_map, const Eigen::Isometry3d& on_vehicle);""",
     "input_judge.h": """extern InputJudge::Moment now; extern InputRules rules; extern ros::Time stamp; extern std::string frame;
         extern std::size_t bytes; extern boost::shared_ptr<const void> message; extern InputJudge::Place place;
         void tell(const std::string&);""",

@@ -1,6 +1,5 @@
 #include "ros/avoidance/flight_hold.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "ros/guard/master/master_diagnostics.h"
@@ -22,34 +21,18 @@ void FlightHold::stop(bool is) {
 }
 
 void FlightHold::manual(bool is) {
+  std::optional<unsigned> handovers;
   {
     const Lock lock(mutex_);
-    if (joystick_.hear(is)) handOver();
+    if (joystick_.hear(is)) handovers = handOver();
     paused_ = paused_ || (is && flies_);
   }
-  tellHandovers();
+  if (handovers) on_handover_(*handovers);
 }
 
-// A flight is paused, and resumed by hand.
-void FlightHold::handOver() {
-  if (!flies_) ++handovers_;
-}
-
-// Again with the next notice() where there was no memory: flights would be ended as given before a handover for ever.
-void FlightHold::tellHandovers() noexcept {
-  unsigned handovers;
-  {
-    const Lock lock(mutex_);
-    if (handovers_told_ == handovers_) return;
-    handovers = handovers_;
-  }
-  try {
-    on_handover_(handovers);
-  } catch (...) {
-    return;
-  }
-  const Lock lock(mutex_);
-  handovers_told_ = std::max(handovers_told_, handovers);
+// None of a flight: it is paused, and resumed by hand.
+std::optional<unsigned> FlightHold::handOver() {
+  return flies_ ? std::nullopt : std::optional(++handovers_);
 }
 
 bool FlightHold::stopped() const {
@@ -94,15 +77,16 @@ bool FlightHold::begin(unsigned handovers) {
 
 bool FlightHold::notice(const ros::Time& now, bool flies) {
   bool yields = false;
+  std::optional<unsigned> handovers;
   {
     const Lock lock(mutex_);
     if (std::exchange(now_, now) != now) moved_ = Clock::now();
     flies_ = flies;
-    if (joystick_.expire()) handOver();
+    if (joystick_.expire()) handovers = handOver();
     paused_ = paused_ || (flies && joystick_.commands());
     yields = !std::exchange(noticed_, paused_) && paused_;
   }
-  tellHandovers();
+  if (handovers) on_handover_(*handovers);
   return yields;
 }
 

@@ -36,7 +36,7 @@ class FlightHold {
   };
 
   // `on_handover` is called where a joystick takes over, or lets go of, a vehicle that does not fly, by whoever calls
-  // manual() or notice(), perhaps twice; `handovers`: how often that was so far.
+  // manual() or notice(); `handovers`: how often that was so far.
   explicit FlightHold(std::function<void(unsigned handovers)> on_handover);
 
   void stop(bool is);
@@ -65,8 +65,7 @@ class FlightHold {
   using Clock = std::chrono::steady_clock;
   using Lock = std::lock_guard<std::mutex>;
 
-  void handOver();
-  void tellHandovers() noexcept;
+  std::optional<unsigned> handOver();
 
   const std::function<void(unsigned)> on_handover_;
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
@@ -76,7 +75,7 @@ class FlightHold {
   bool paused_ = false;
   bool noticed_ = false;  // that it is paused
   ManualControl joystick_;
-  unsigned handovers_ = 0, handovers_told_ = 0;
+  unsigned handovers_ = 0;
   ros::Time now_;
   Clock::time_point moved_ = Clock::now();  // when ROS time did last
 };

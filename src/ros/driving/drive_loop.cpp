@@ -168,7 +168,6 @@ void DriveLoop::tick() {
   const ros::Time now = ros::Time::now();
   if (now != now_) moved_ = Clock::now();
   now_ = now;
-  tellHandovers();
   yieldToJoystick();
   follow(now);
   report(now);
@@ -263,20 +262,7 @@ void DriveLoop::onManual(const std_msgs::Bool& message) {
 
 // A drive that is paused is resumed by hand.
 void DriveLoop::noteHandover() {
-  if (!follower_.active()) ++handovers_;
-  tellHandovers();
-}
-
-// Again with the next tick where there was no memory: drives would be ended as given before a handover for ever. Nothing is
-// logged in this thread.
-void DriveLoop::tellHandovers() noexcept {
-  if (handovers_told_ == handovers_) return;
-  try {
-    listener_.on_handover(handovers_);
-    handovers_told_ = handovers_;
-  } catch (...) {
-    return;
-  }
+  if (!follower_.active()) listener_.on_handover(++handovers_);
 }
 
 void DriveLoop::onStop(const std_msgs::Bool& message) {
@@ -349,13 +335,7 @@ void DriveLoop::hand(std::vector<DriveReport> reports) {
     for (DriveReport& report : reports) reports_.push_back(std::move(report));
     if (std::exchange(reports_told_, true)) return;
   }
-  try {
-    listener_.on_report();
-  } catch (...) {  // no memory: the next report tries again
-    const std::lock_guard<std::mutex> lock(reports_mutex_);
-    reports_told_ = false;
-    throw;
-  }
+  listener_.on_report();
 }
 
 DriveStanding DriveLoop::standingNow() const {

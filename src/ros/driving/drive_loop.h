@@ -126,7 +126,6 @@ class DriveLoop {
   void onStop(const std_msgs::Bool& message);
   void noteRefused();
   void noteHandover();
-  void tellHandovers() noexcept;
   void yieldToJoystick();
   void publish(const base::BodyVelocity& velocity);
   void report(const ros::Time& now);
@@ -140,7 +139,7 @@ class DriveLoop {
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   following::PathFollower follower_;
   unsigned drive_ = 0;  // started so far
-  unsigned handovers_ = 0, handovers_told_ = 0;
+  unsigned handovers_ = 0;
   MapLife map_;
   SpeedLimits limits_;
   ros::Time now_;

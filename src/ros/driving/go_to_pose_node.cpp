@@ -278,20 +278,12 @@ void GoToPoseNode::carryOutOrders() {
   if (std::exchange(carrying_out_, true)) return;
   bool any = false;
   for (auto orders = navigator_.takeOrders(); !orders.empty(); orders = navigator_.takeOrders()) {
-    for (const Order& order : orders) tryToCarryOut(order);
+    // One that fails keeps no other from being carried out: the next may be STOP.
+    for (const Order& order : orders) guarded("An order", [&] { carryOut(order); });
     any = true;
   }
   carrying_out_ = false;
   if (any) publishStatus();
-}
-
-// One that fails, for want of memory, keeps no other from being carried out: the next may be STOP.
-void GoToPoseNode::tryToCarryOut(const Order& order) {
-  try {
-    carryOut(order);
-  } catch (...) {
-    tellGivenUp("An order");
-  }
 }
 
 void GoToPoseNode::carryOut(const Order& order) {

@@ -109,7 +109,6 @@ class GoToPoseNode {
   void onDriveEnd(const DriverAnswer& answer);
 
   void carryOutOrders();
-  void tryToCarryOut(const Order& order);
   void carryOut(const Order& order);
   void askForPlan(double tolerance);
   void drive(path::Path path);

@@ -136,11 +136,7 @@ NavigatePathNode::~NavigatePathNode() {
 }
 
 void NavigatePathNode::takeLastReports() noexcept {
-  try {
-    takeReports();
-  } catch (...) {
-    tellGivenUp("A report of the last drive");
-  }
+  guarded("A report of the last drive", [this] { takeReports(); });
 }
 
 // What waits in the queue when a joystick takes over was given before that.

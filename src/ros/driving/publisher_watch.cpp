@@ -30,11 +30,7 @@ void PublisherWatch::run() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!done_) {
     lock.unlock();
-    try {
-      ask();
-    } catch (...) {
-      tellGivenUp("A question to a publisher");
-    }
+    guarded("A question to a publisher", [this] { ask(); });
     lock.lock();
     ends_.wait_for(lock, kPeriod, [this] { return done_; });
   }
@@ -50,14 +46,13 @@ void PublisherWatch::ask() {
 
 // Where it does not, the next time at the URI that the master knows by then.
 bool PublisherWatch::answersNow() {
-  try {
+  bool answers = false;
+  guarded("A question to a publisher", [&] {
     if (uri_.empty()) uri_ = uriOfNode(node_, kPatience).value_or("");
-    if (!uri_.empty() && answersXmlRpc(uri_, kPatience)) return true;
-  } catch (...) {
-    tellGivenUp("A question to a publisher");
-  }
-  uri_.clear();
-  return false;
+    answers = !uri_.empty() && answersXmlRpc(uri_, kPatience);
+  });
+  if (!answers) uri_.clear();
+  return answers;
 }
 
 }  // namespace grid_path_planner::nodes

@@ -66,13 +66,12 @@ class GuardedCallback : public ros::CallbackInterface {
 
   // Not under the owner's lock: a listener may remove an owner.
   CallResult call() override {
-    try {
+    CallResult result = Success;
+    guarded("A callback", [&] {
       time_->tellJumps();
-      return owner_->call(*callback_);
-    } catch (...) {
-      tellGivenUp("A callback");
-      return Success;
-    }
+      result = owner_->call(*callback_);
+    });
+    return result;
   }
   bool ready() override { return callback_->ready(); }
 
@@ -164,11 +163,7 @@ void tellGivenUp(const char* what) noexcept {
 }
 
 void callWaiting(ros::CallbackQueue& queue, ros::WallDuration timeout) noexcept {
-  try {
-    queue.callAvailable(timeout);
-  } catch (...) {
-    tellGivenUp("A round of callbacks");
-  }
+  guarded("A round of callbacks", [&] { queue.callAvailable(timeout); });
 }
 
 ros::CallbackInterfacePtr callbackOf(std::function<void()> work) {

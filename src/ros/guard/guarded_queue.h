@@ -58,6 +58,17 @@ void tellGivenUp(const std::string& what, const std::string& error);
 // The exception that is being handled. Where there is no memory to tell it, nothing is told; std::bad_alloc is counted
 // (process/memory_failures.h). Precondition: called in a catch block.
 void tellGivenUp(const char* what) noexcept;
+// Calls `work`; an exception of it ends it, is told as one of `what`, and goes no further. Returns whether there was none.
+template <class Work>
+bool guarded(const char* what, const Work& work) noexcept {
+  try {
+    work();
+    return true;
+  } catch (...) {
+    tellGivenUp(what);
+    return false;
+  }
+}
 
 // Calls what waits in a queue. For the loop of a thread that serves one: roscpp's queue itself wants memory, too.
 void callWaiting(ros::CallbackQueue& queue, ros::WallDuration timeout) noexcept;

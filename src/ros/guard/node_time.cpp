@@ -134,11 +134,7 @@ void NodeTime::tell(double seconds) const {
   const auto& listeners = listeners_->by_number;
   for (auto next = listeners.begin(); next != listeners.end();) {
     const auto [number, listener] = *next;
-    try {
-      (*listener)(seconds);
-    } catch (...) {
-      tellGivenUp("What is done where ROS time went back");
-    }
+    guarded("What is done where ROS time went back", [&] { (*listener)(seconds); });
     next = listeners.upper_bound(number);
   }
 }

@@ -58,6 +58,11 @@ class ShutdownRequest {
     return reason_;
   }
 
+  bool came() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return !reason_.empty();
+  }
+
  private:
   void receive(XmlRpc::XmlRpcValue& request) {
     const bool has_reason = request.getType() == XmlRpc::XmlRpcValue::TypeArray &&
@@ -76,6 +81,11 @@ class ShutdownRequest {
 std::string endReason() {
   if (signal_received) return "signal " + std::to_string(signal_received);
   return ShutdownRequest::instance().reason();
+}
+
+// Whether there is one. Takes no memory.
+bool isAskedToEnd() {
+  return signal_received != 0 || ShutdownRequest::instance().came();
 }
 
 void serve(const std::string& name, const NodeMaker& make) {
@@ -121,7 +131,7 @@ std::optional<int> exitCodeOf(const std::function<void()>& check, const std::str
 }  // namespace
 
 bool nodeIsToEnd() {
-  return node_process && !endReason().empty();
+  return node_process && isAskedToEnd();
 }
 
 int runNode(int argc, char** argv, const std::string& name, const NodeMaker& make,
@@ -133,7 +143,7 @@ int runNode(int argc, char** argv, const std::string& name, const NodeMaker& mak
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
-  const EndWithoutMaster limit(name, endReason);
+  const EndWithoutMaster limit(name, isAskedToEnd);
   int result = 0;
   master_is_there = ros::master::check();
   if (const auto exit_code = exitCodeOf(check, name)) return *exit_code;

@@ -139,10 +139,12 @@ void MapReceiver::onMap(const MapEvent& event) {
       event.getPublisherName(), event.getConstMessage()->header.stamp, maps_.askedAt());
   // A latched map of before, where a new one was asked for and follows.
   if (whole.lacks && maps_.isAsked()) return;
+  const bool was_torn = std::exchange(torn_, true);
   MapChange change;
   try {
-    change = taking([&] { return use(event, whole); });
+    change = use(event, whole);
   } catch (const InputError& error) {
+    torn_ = was_torn;
     return refuse(maps_.topic(), error.what());
   }
   tellTraits(event);
@@ -150,19 +152,13 @@ void MapReceiver::onMap(const MapEvent& event) {
   order_.tookWhole(whole);
   if (!whole.has_lost) noteComplete();
   if (whole.lacks) noteLoss("A map came that is older than its updates");
-  tell(std::move(change));
+  tell(std::move(change), was_torn);
 }
 
-template <class Take>
-MapChange MapReceiver::taking(Take take) {
-  try {
-    return take();
-  } catch (const InputError&) {
-    throw;
-  } catch (...) {
-    lost_one_ = owes_map_ = true;
-    throw;
-  }
+void MapReceiver::tell(MapChange change, bool whole) {
+  if (whole) change.changed.reset();
+  on_change_(change);
+  torn_ = false;
 }
 
 MapChange MapReceiver::use(const MapEvent& event, const MapOrder::Whole& whole) {
@@ -210,7 +206,7 @@ void MapReceiver::noteComplete() {
 
 void MapReceiver::retry() {
   const auto since = order_.awaitedSince();
-  if (std::exchange(lost_one_, false)) {
+  if (torn_) {
     order_.noteLoss();
     noteLoss("A change of the map could not be taken");
   } else if (!lost().empty()) {
@@ -220,14 +216,6 @@ void MapReceiver::retry() {
     noteLoss("A map of another place or size was announced and has not come");
   }
   maps_.retry();
-  if (owes_map_ && latest().grid) tell({latest(), std::nullopt});
-}
-
-// A listener that failed to take a change takes the whole map with the next, or by retry().
-void MapReceiver::tell(MapChange change) {
-  if (std::exchange(owes_map_, true)) change.changed.reset();
-  on_change_(change);
-  owes_map_ = false;
 }
 
 void MapReceiver::onUpdate(const UpdateEvent& event) {
@@ -272,10 +260,12 @@ void MapReceiver::noteUpdate(const UpdateEvent& event) {
                                              << latest().stamp);
     return;
   }
+  const bool was_torn = std::exchange(torn_, true);
   MapChange change;
   try {
-    change = taking([&] { return apply(event); });
+    change = apply(event);
   } catch (const InputError& error) {
+    torn_ = was_torn;
     refuse(updates_.getTopic(), error.what());
     order_.keep(publisher,
                 message);  // of a map that has grown, and comes after it
@@ -283,7 +273,7 @@ void MapReceiver::noteUpdate(const UpdateEvent& event) {
   }
   order_.tookUpdate(*message);
   order_.keep(publisher, message);
-  tell(std::move(change));
+  tell(std::move(change), was_torn);
 }
 
 MapChange MapReceiver::apply(const UpdateEvent& event) {

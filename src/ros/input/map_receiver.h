@@ -126,12 +126,9 @@ class MapReceiver {
   MapChange apply(const UpdateEvent& event);
   void noteLoss(const std::string& what);
   void noteComplete();
-  // Returns what `take` does. Where it fails for want of memory, the grid may
-  // have the change and nobody was told.
-  template <class Take>
-  MapChange taking(Take take);
-  void tell(MapChange change);
-  // What failed for want of memory: a map or an update that came, the subscription, the listener. By a timer.
+  // To the listener: the whole map where an earlier change was not told.
+  void tell(MapChange change, bool whole);
+  // By a timer: asks for the map again where it lacks something, and for the subscription.
   void retry();
   // The map whose grid is the present one of grids_.
   MapChange store(ReceivedMap map, std::optional<std::vector<grid::CellRect>> changed);
@@ -142,8 +139,7 @@ class MapReceiver {
   // The subscribers' thread's:
   grid::DoubleBuffered<grid::OccupancyGrid> grids_;
   MapOrder order_;
-  bool lost_one_ = false;  // a map or an update that came
-  bool owes_map_ = false;  // to the listener
+  bool torn_ = false;  // an error ended a change of the map before the listener knew of it
 
   mutable std::mutex mutex_;  // of what follows up to the subscriptions
   std::string topic_;         // resolved

@@ -35,18 +35,12 @@ void apply(const map_msgs::OccupancyGridUpdate& update, nav_msgs::OccupancyGrid&
 
 }  // namespace
 
-void RecentUpdates::keep(const std::string& publisher, const Update& update,
-                         const ros::Time& now) noexcept {
-  try {
-    const ros::Time& stamp = update->header.stamp;
-    if (stamp.isZero() || secondsBetween(now, stamp) > kMostAhead || !isValid(*update)) return;
-    forgetLaterThan(publisher, stamp);
-    kept_.push_back({publisher, update});
-    bytes_ += update->data.size();
-  } catch (...) {  // no memory
-    noteForgotten(update);
-    return;
-  }
+void RecentUpdates::keep(const std::string& publisher, const Update& update, const ros::Time& now) {
+  const ros::Time& stamp = update->header.stamp;
+  if (stamp.isZero() || secondsBetween(now, stamp) > kMostAhead || !isValid(*update)) return;
+  forgetLaterThan(publisher, stamp);
+  kept_.push_back({publisher, update});
+  bytes_ += update->data.size();
   while (bytes_ > kMostBytes || kept_.size() > kMostUpdates) forgetTheOldest();
 }
 

@@ -21,7 +21,7 @@ class RecentUpdates {
 
   // `publisher`: the node. The oldest are forgotten beyond 16 MB and 1,000 updates; one with values, or the name of a frame, that no
   // map has, stamped 0, or more than kMostAhead after `now`, which would be newer than every map to come, is not kept.
-  void keep(const std::string& publisher, const Update& update, const ros::Time& now) noexcept;
+  void keep(const std::string& publisher, const Update& update, const ros::Time& now);
   // Those of `publisher` that are stamped later than `stamp` and no later than
   // `until`, in the order in which they came; none where `stamp` is 0, of no
   // time.

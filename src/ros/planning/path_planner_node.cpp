@@ -141,16 +141,7 @@ void PathPlannerNode::checkTime() {
     return server_->placed(goal.path.frame_id, goal.request.goal);
   };
   if (active_goal_.retryIsDue(std::chrono::steady_clock::now(), placed)) postPlanForGoal();
-  planOnUncheckedMap();
   replanInTime();
-}
-
-// A path of which nobody knows whether the map blocks it is planned again, and is gone where that cannot be done.
-void PathPlannerNode::planOnUncheckedMap() {
-  if (!map_unchecked_) return;
-  const std::optional<GoalState> goal = active_goal_.goal();
-  if (goal && !goal->path.empty()) postPlanForGoal();
-  map_unchecked_ = false;
 }
 
 void PathPlannerNode::replanInTime() {
@@ -277,8 +268,9 @@ void PathPlannerNode::processMap(const StopSource& stop) {
     server_->vehicleLane().finishLater(options);
   } catch (const Stopped&) {
     // The node ends.
-  } catch (...) {
-    map_unchecked_ = true;
+  } catch (const std::exception&) {
+    // Nobody knows whether the map blocks the path: it is gone where it cannot be planned again.
+    if (const auto goal = active_goal_.goal(); goal && !goal->path.empty()) postPlanForGoal();
     throw;
   }
 }

@@ -12,7 +12,6 @@
 #include <ros/steady_timer.h>
 #include <ros/subscriber.h>
 
-#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -50,7 +49,6 @@ class PathPlannerNode {
  private:
   // Callbacks
   void checkTime();
-  void planOnUncheckedMap();
   void onGoal(const geometry_msgs::PoseStamped& message);
   void onInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   void onOptions(const PathPlannerNodeOptions& options);
@@ -88,7 +86,6 @@ class PathPlannerNode {
   std::vector<ros::Subscriber> subscribers_;
   RosPeriod replan_period_;
   ros::SteadyTimer clock_timer_;
-  std::atomic<bool> map_unchecked_{false};  // what follows a map was given up
   ros::SteadyTimer full_map_timer_;
   std::shared_ptr<void> on_jump_back_;
 };

@@ -63,7 +63,7 @@ void PlanAction::onGoal() {
 // Not in the thread that actionlib has for this, which an exception would leave: it throws where a goal is taken while
 // /clock is at the end of what a time can hold.
 void PlanAction::run() {
-  while (waitForGoal()) answerNext();
+  while (waitForGoal()) guarded("A goal of plan_path", [this] { answerNext(); });
 }
 
 bool PlanAction::waitForGoal() {
@@ -78,28 +78,22 @@ bool PlanAction::endsWithin(double seconds) {
   return changed_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return ends_; });
 }
 
-void PlanAction::answerNext() noexcept {
+void PlanAction::answerNext() {
   try {
     if (action_.isNewGoalAvailable()) answer(*action_.acceptNewGoal());
   } catch (...) {
-    giveUp();
+    giveUp(currentErrorText());
     if (!endsWithin(kRetryPeriod)) onGoal();  // one that could not be taken waits still
   }
 }
 
-// In a catch block, until the goal has its end: nobody else would end it.
-void PlanAction::giveUp() noexcept {
-  while (action_.isActive()) {
-    try {
-      PlanPathResult result;
-      result.status = std::string(toString(Status::INVALID_REQUEST));
-      result.message = "the request was given up: " + currentErrorText();
-      action_.setAborted(result, result.message);
-    } catch (...) {
-      tellGivenUp("The answer to a goal of plan_path");
-      if (endsWithin(kRetryPeriod)) return;
-    }
-  }
+// Of the goal that is active.
+void PlanAction::giveUp(const std::string& error) {
+  if (!action_.isActive()) return;
+  PlanPathResult result;
+  result.status = std::string(toString(Status::INVALID_REQUEST));
+  result.message = "the request was given up: " + error;
+  action_.setAborted(result, result.message);
 }
 
 void PlanAction::answer(const PlanPathGoal& goal) {

@@ -39,8 +39,8 @@ class PlanAction {
   void run();
   bool waitForGoal();
   bool endsWithin(double seconds);
-  void answerNext() noexcept;
-  void giveUp() noexcept;
+  void answerNext();
+  void giveUp(const std::string& error);
   void answer(const PlanPathGoal& goal);
   bool answeredUncancelled(PlanTicket& ticket);
   void finish(const planning::Plan& plan, const path::Path& poses, const PlanStatistics& statistics,

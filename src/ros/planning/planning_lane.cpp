@@ -42,17 +42,7 @@ using planning::remainingPath;
 using planning::ViaPlan;
 using planning::ViaRequest;
 
-namespace {
-
-// Where there is no memory for copies, nothing is lost: the first change asks for it again.
-void copyForChanges(PathPlanner& planner, const StopToken& stop) {
-  try {
-    planner.makeReadyForChanges(stop);
-  } catch (const std::bad_alloc&) {
-  }
-}
-
-}  // namespace
+namespace {}  // namespace
 
 PlanningLane::PlanningLane(const MapReceiver& maps, std::shared_ptr<MapStore> store,
                            const FrameTransforms& transforms, const PlanningLane* other)
@@ -80,7 +70,7 @@ void PlanningLane::finishLater(const PathPlannerNodeOptions& options) {
     const std::size_t cells = planner_->map()->geometry().size();
     try {
       setOptions(options.planner);
-      if (cells <= kMostCopied) copyForChanges(*planner_, stop.token());
+      if (cells <= kMostCopied) planner_->makeReadyForChanges(stop.token());
       if (cells <= kMostFinished) planner_->finishPreparation(stop.token());
     } catch (const Stopped&) {
     } catch (const InputError&) {
@@ -151,7 +141,6 @@ Explanation PlanningLane::explain(const PlanningRequest& request, Status status,
   } catch (const InputError&) {
   } catch (const TransformError&) {
   } catch (const Stopped&) {
-  } catch (...) {
   }
   return {};
 }

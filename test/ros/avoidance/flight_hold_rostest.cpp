@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <new>
 #include <vector>
 
 namespace grid_path_planner::nodes {
@@ -27,14 +26,8 @@ class FlightHoldTest : public testing::Test {
   // With what was told last.
   class Told : public FlightHold {
    public:
-    Told()
-        : FlightHold([this](unsigned handovers) {
-            if (failures > 0 && failures-- > 0) throw std::bad_alloc();
-            handovers_ = handovers;
-          }) {}
+    Told() : FlightHold([this](unsigned handovers) { handovers_ = handovers; }) {}
     unsigned handovers() const { return handovers_; }
-
-    int failures = 0;  // to come
 
    private:
     unsigned handovers_ = 0;
@@ -59,18 +52,6 @@ TEST_F(FlightHoldTest, AGoalThatCameWhileAJoystickCommandedWaits) {
   ASSERT_TRUE(hold_.begin(1));
   hold_.manual(false);
   EXPECT_EQ(why(), kPaused);
-}
-
-// Without memory what follows a handover was not told, and every later flight was ended as given before it.
-TEST_F(FlightHoldTest, AHandoverThatCouldNotBeToldIsToldAgain) {
-  hold_.failures = 3;
-  tap();
-  EXPECT_EQ(hold_.handovers(), 0U);
-  plan(false);
-  EXPECT_EQ(hold_.handovers(), 0U);
-  plan(false);
-  EXPECT_EQ(hold_.handovers(), 2U);
-  EXPECT_TRUE(hold_.begin(2));
 }
 
 // It was asked once a plan whether a joystick commands: a tap between two plans was not seen.

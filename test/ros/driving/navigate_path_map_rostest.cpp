@@ -68,46 +68,6 @@ class NavigateMap : public test::StillTest {
   StillWorld world_{100.0};
 };
 
-// By the code, a map that had no memory at first was a sign of life when it was handed over once more, of whom it had not been.
-TEST_F(NavigateMap, OneThatIsTakenLateIsNoSignOfLifeAgain) {
-  using Time = std::chrono::steady_clock::time_point;
-  std::mutex mutex;
-  std::optional<Time> failed, sign;
-  std::optional<ros::Time> first;  // stamp of the map that is taken at once
-  ros::CallbackQueue queue;
-  GuardedQueue guarded(queue);
-  ros::NodeHandle nh;
-  nh.setCallbackQueue(&guarded);
-  const MapWatch watch(nh, [&](const MapLife& life) {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (!first || life.map.stamp == *first || sign) return;
-    if (!failed) {
-      failed = std::chrono::steady_clock::now();
-      throw std::bad_alloc();
-    }
-    sign = life.sign;
-  });
-  ros::AsyncSpinner spinner(1, &queue);
-  spinner.start();
-  ASSERT_TRUE(test::waitFor([] { return !ros::Time::now().isZero(); })) << "/clock";
-  publishMap();
-  ASSERT_TRUE(beatsUntil([&] { return watch.life().map.data.beats(); }));
-  const ros::Time last_beat = beat(1.0);  // a stamp that none before had
-  ASSERT_TRUE(test::waitFor([&] { return watch.life().map.data.newest() == last_beat; }));
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    first = watch.life().map.stamp;
-  }
-  publishMap();
-  const auto seen = [&] {
-    const std::lock_guard<std::mutex> lock(mutex);
-    return sign.has_value();
-  };
-  ASSERT_TRUE(test::waitFor(seen));
-  spinner.stop();
-  EXPECT_LE(*sign, *failed);
-}
-
 // By the code, what one thread read before the other had told was told after it: a sign of life was taken back for a second.
 TEST_F(NavigateMap, WhatOneThreadTellsIsNeverOlderThanWhatTheOtherHasTold) {
   std::mutex mutex;

@@ -9,23 +9,10 @@
 
 namespace grid_path_planner::nodes {
 
-namespace {
-
-// Without memory for the reason there is one.
-bool isToEnd() noexcept {
-  try {
-    return nodeIsToEnd() || ros::isShuttingDown();
-  } catch (...) {
-    return true;
-  }
-}
-
-}  // namespace
-
 EndOfNode::EndOfNode(base::StopSource stop) : stop_(std::move(stop)) {
   watch_ = std::thread([this] {
     while (!over_) {
-      if (isToEnd()) stop_.cancel();
+      if (nodeIsToEnd() || ros::isShuttingDown()) stop_.cancel();
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   });

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ros/guard/ending/shutdown_method.h"
+#include "ros/guard/guarded_queue.h"
 
 namespace grid_path_planner::nodes {
 namespace {
@@ -145,13 +146,8 @@ class EndWatch {
 
   void stopAll() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    for (const std::function<void()>* stop : stops_) {
-      try {
-        (*stop)();
-      } catch (...) {
-        continue;  // the others stop all the same
-      }
-    }
+    for (const std::function<void()>* stop : stops_)
+      guarded("The end of a nodelet", *stop);  // the others stop all the same
   }
 
   std::mutex mutex_;

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <utility>
 
+#include "ros/guard/guarded_queue.h"
 #include "ros/guard/master/xmlrpc_call.h"
 
 namespace grid_path_planner::nodes {
@@ -31,17 +32,17 @@ void handleInterruption() {
   ::sigaction(kInterruption, &action, nullptr);
 }
 
+// Not to blame where it cannot be asked.
 bool masterAnswers() noexcept {
-  try {
-    return answersXmlRpc(masterUri(), kPatienceOfMaster);
-  } catch (...) {
-    return true;
-  }
+  bool answers = true;
+  guarded("A question to the master",
+          [&] { answers = answersXmlRpc(masterUri(), kPatienceOfMaster); });
+  return answers;
 }
 
 }  // namespace
 
-EndWithoutMaster::EndWithoutMaster(std::string name, std::function<std::string()> asked)
+EndWithoutMaster::EndWithoutMaster(std::string name, std::function<bool()> asked)
     : name_(std::move(name)),
       asked_(std::move(asked)),
       main_thread_(::pthread_self()),
@@ -61,17 +62,8 @@ bool EndWithoutMaster::isOverWithin(double seconds) {
   return over_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return is_over_; });
 }
 
-// Without memory for the reason there is one, and without memory to ask the master it is not to blame.
-bool EndWithoutMaster::isAsked() const noexcept {
-  try {
-    return !asked_().empty();
-  } catch (...) {
-    return true;
-  }
-}
-
 void EndWithoutMaster::run() {
-  while (!isAsked())
+  while (!asked_())
     if (isOverWithin(kPeriod)) return;
   if (isOverWithin(kAskedAfter)) return;
   handleInterruption();

@@ -1,6 +1,6 @@
 // Ends a process that was asked to end while its master answers nobody.
 //
-//   const EndWithoutMaster limit("path_planner", [] { return std::string("signal 2"); });
+//   const EndWithoutMaster limit("path_planner", [] { return isAskedToEnd(); });
 //
 // roscpp gives every topic and service back to the master, one by one, and waits for each answer for
 // as long as there is a connection: where the master is stopped, or so busy that it takes half a
@@ -25,20 +25,18 @@ namespace grid_path_planner::nodes {
 
 class EndWithoutMaster {
  public:
-  // Made by the main thread. `asked`: why the process is to end; empty while it is not. Called from a
-  // thread, ten times a second.
-  EndWithoutMaster(std::string name, std::function<std::string()> asked);
+  // Made by the main thread. `asked`: whether the process is to end. Called from a thread, ten times a second.
+  EndWithoutMaster(std::string name, std::function<bool()> asked);
   ~EndWithoutMaster();
   EndWithoutMaster(const EndWithoutMaster&) = delete;
   EndWithoutMaster& operator=(const EndWithoutMaster&) = delete;
 
  private:
   void run();
-  bool isAsked() const noexcept;
   bool isOverWithin(double seconds);
 
   const std::string name_;
-  const std::function<std::string()> asked_;
+  const std::function<bool()> asked_;
   const std::thread::native_handle_type main_thread_;
   std::mutex mutex_;
   std::condition_variable over_;

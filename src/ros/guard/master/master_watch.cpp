@@ -87,15 +87,13 @@ void MasterWatch::run() {
 }
 
 void MasterWatch::tryToAsk() noexcept {
-  try {
+  guarded("A question to the master", [this] {
     try {
       ask();
     } catch (const XmlRpc::XmlRpcException& error) {  // no std::exception
       throw std::runtime_error(error.getMessage());
     }
-  } catch (...) {
-    tellGivenUp("A question to the master");
-  }
+  });
 }
 
 void MasterWatch::ask() {

@@ -69,11 +69,8 @@ void ControlThread::start(double rate, int priority) {
 
 void ControlThread::stop() {
   done_ = true;
-  try {
-    post([] {});  // it may wait for most of a period
-  } catch (...) {
-    tellGivenUp("Waking the control thread");
-  }
+  // It may wait for most of a period.
+  guarded("Waking the control thread", [this] { post([] {}); });
   if (thread_.joinable()) thread_.join();
 }
 
@@ -95,12 +92,8 @@ void ControlThread::doAndWait(const std::function<void()>& work) {
 
 bool ControlThread::askAtLast(const std::function<void()>& work) noexcept {
   for (int i = 0; i < kLastAttempts; ++i) {
-    try {
-      doAndWait(work);
-      return true;
-    } catch (...) {
-      std::this_thread::sleep_for(kBetweenAttempts);
-    }
+    if (guarded("The last work of the control thread", [&] { doAndWait(work); })) return true;
+    std::this_thread::sleep_for(kBetweenAttempts);
   }
   return false;
 }

@@ -12,11 +12,7 @@ ros::SteadyTimer timer(const ros::NodeHandle& nh, double period, std::function<v
   return nh.createSteadyTimer(
       ros::WallDuration(period),
       [work = std::move(work)](const ros::SteadyTimerEvent&) {
-        try {
-          work();
-        } catch (...) {
-          tellGivenUp("What a timer calls");
-        }
+        guarded("What a timer calls", work);
       },
       once);
 }
