@@ -12,6 +12,7 @@ velocities adds a row.
     locks       the test of the law that its thread that commands takes no lock that file, map or publishing code holds
 """
 import collections
+import math
 import os
 import signal
 import tempfile
@@ -190,8 +191,30 @@ class CommanderTest(unittest.TestCase):
         self.addCleanup(self.end_all)
 
     def end_all(self):
+        """Whatever was commanded in the test is finite."""
         for node in self.started:
             node.end(signal.SIGKILL)
+        for node in self.started:
+            for _, topic, twist in getattr(node, "commands", ()):
+                for number in (twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z):
+                    self.assertTrue(math.isfinite(number), "%s of %s" % (topic, node))
+
+    def commander(self, name, kind="process", stopped=False):
+        self.started.append(RunningCommander(name, kind, self.clock, self.folder, stopped))
+        return self.started[-1]
+
+    def moving(self, name, kind="process"):
+        node = self.commander(name, kind)
+        self.assertTrue(self.moves(node), "%s: %s" % (node, self.said(node)))
+        return node
+
+    def stays(self, node, meanwhile=lambda: None):
+        """It commands no motion for a while from now on."""
+        begin = time.monotonic()
+        while time.monotonic() < begin + QUIET:
+            meanwhile()
+            time.sleep(0.1)
+        return not node.moved_after(begin)
 
     @staticmethod
     def said(node):

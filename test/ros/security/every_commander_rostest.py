@@ -1,21 +1,17 @@
 #!/usr/bin/env python3
 """What a vehicle may rely on of whatever commands it: one suite over the table in commanders.py."""
-import math
 import os
 import signal
 import sys
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import rosnode
 import rospkg
 import rospy
 import rostest
-from roslib.message import get_service_class
-from std_msgs.msg import Bool
 
 import node_probes as probes
-from commanders import COMMANDERS, DEADLINE, QUIET, TICK, TRAJECTORIES, VELOCITIES, CommanderTest, RunningCommander
+from commanders import COMMANDERS, DEADLINE, TICK, TRAJECTORIES, VELOCITIES, CommanderTest
 from late_publisher import LatePublisher
 from node_table import NODES
 from own_master import start_own_master
@@ -23,7 +19,6 @@ from running_nodes import PACKAGE
 
 LATE = 0.7        # s, within what a node waits for a publisher that is known
 FAR = (1e160, -1e308, 1e7)  # m
-DRIVERS = [name for name in COMMANDERS if "manual_control" in NODES[name].inputs]
 
 
 def far_transforms(node, x):
@@ -41,31 +36,6 @@ def turned_transforms(node, number):
 
 
 class EveryCommander(CommanderTest):
-    def end_all(self):
-        """Whatever was commanded in the test is finite."""
-        super().end_all()
-        for node in self.started:
-            for _, topic, twist in getattr(node, "commands", ()):
-                for number in (twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z):
-                    self.assertTrue(math.isfinite(number), "%s of %s" % (topic, node))
-
-    def commander(self, name, kind="process", stopped=False):
-        self.started.append(RunningCommander(name, kind, self.clock, self.folder, stopped))
-        return self.started[-1]
-
-    def moving(self, name, kind="process"):
-        node = self.commander(name, kind)
-        self.assertTrue(self.moves(node), "%s: %s" % (node, self.said(node)))
-        return node
-
-    def stays(self, node, meanwhile=lambda: None):
-        """It commands no motion for a while from now on."""
-        begin = time.monotonic()
-        while time.monotonic() < begin + QUIET:
-            meanwhile()
-            time.sleep(0.1)
-        return not node.moved_after(begin)
-
     def test_the_table_has_every_node_that_commands(self):
         kinds = set(VELOCITIES + TRAJECTORIES)
         self.assertEqual({name for name in NODES if set(NODES[name].outputs.values()) & kinds}, set(COMMANDERS))
@@ -189,83 +159,6 @@ class EveryCommander(CommanderTest):
             self.assertTrue(stood, name)
             self.assertTrue(self.moves(node), name)
 
-    def test_signals_end_in_a_zero(self):
-        for name in COMMANDERS:
-            for number in (signal.SIGINT, signal.SIGTERM):
-                node = self.moving(name)
-                self.assertIsNotNone(node.end(number), name)
-                self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, time.monotonic() + DEADLINE), name)
-
-    def test_a_manager_that_is_signalled_leaves_a_zero(self):
-        """roscpp closes the connections at SIGINT before a nodelet hears of it, and SIGTERM ends a manager at once."""
-        for number in (signal.SIGINT, signal.SIGTERM):
-            self.managers_leave_zeros(lambda node, number=number: node.processes[0].send_signal(number), "signal %d" % number)
-
-    def test_a_manager_that_is_asked_to_end_leaves_a_zero(self):
-        """By `rosnode kill`; roscpp closes the connections before a nodelet hears of it, as at SIGINT."""
-        self.managers_leave_zeros(lambda node: rosnode.kill_nodes([node.space + "/manager"]), "rosnode kill")
-
-    def test_a_manager_whose_name_another_takes_leaves_a_zero(self):
-        """The master asks it to end."""
-        self.managers_leave_zeros(RunningCommander.start_manager, "another of its name")
-
-    def managers_leave_zeros(self, ask_to_end, what):
-        for name in COMMANDERS:
-            node = self.moving(name, "nodelet")
-            manager = node.processes[0]
-            ask_to_end(node)
-            self.assertTrue(probes.until(self.anybody(), lambda: manager.poll() is not None,
-                                         time.monotonic() + DEADLINE), "%s after %s" % (name, what))
-            self.assertTrue(probes.until(self.anybody(), node.ends_in_zeros, time.monotonic() + DEADLINE),
-                            "%s after %s: %s" % (name, what, self.said(node)))
-            node.end(signal.SIGKILL)
-
-    def test_a_joystick_takes_over_and_a_hand_gives_back(self):
-        for name in DRIVERS:
-            node = self.moving(name)
-
-            def hold():
-                node.send("manual_control", Bool(True))
-            probes.until(node, lambda: not node.moved_after(time.monotonic() - QUIET), time.monotonic() + DEADLINE, hold)
-            self.assertTrue(self.stays(node, hold), name)
-            self.assertFalse(self.resumes(node), "%s while the joystick commands" % name)
-            node.send("manual_control", Bool(False))
-            self.assertTrue(self.stays(node), "%s goes on by itself" % name)
-            self.assertTrue(self.resumes(node), name)
-            self.assertTrue(self.moves(node), name)
-
-    def test_a_joystick_that_is_let_go_at_once_takes_over_all_the_same(self):
-        """Of two messages that came together the first was dropped: the drive went on by itself."""
-        for name in DRIVERS:
-            node = self.moving(name)
-            node.processes[0].send_signal(signal.SIGSTOP)
-            for commands in (True, False):
-                node.send("manual_control", Bool(commands))
-            time.sleep(0.2)  # both are there when it goes on
-            node.processes[0].send_signal(signal.SIGCONT)
-            self.assertTrue(probes.until(node, lambda: not node.moved_after(time.monotonic() - QUIET), time.monotonic() + DEADLINE), name)
-            self.assertTrue(self.stays(node), "%s goes on by itself" % name)
-            self.assertTrue(self.resumes(node), name)
-            self.assertTrue(self.moves(node), name)
-
-    def test_a_joystick_that_was_killed_holds_nobody_for_ever(self):
-        for name in DRIVERS:
-            node = self.moving(name)
-
-            def holds():
-                node.send("manual_control", Bool(True))
-                return not self.resumes(node)
-            self.assertTrue(probes.until(node, holds, time.monotonic() + DEADLINE), name)
-            begin = time.monotonic()
-            self.assertTrue(probes.until(node, lambda: node.zeroed_after(begin), time.monotonic() + DEADLINE),
-                            "%s leaves the last velocity of a joystick in force" % name)
-            self.assertTrue(probes.until(node, lambda: self.resumes(node), time.monotonic() + DEADLINE), name)
-            self.assertTrue(self.moves(node), name)
-
-    @staticmethod
-    def resumes(node):
-        answer = node.call("~resume", get_service_class("std_srvs/Trigger")._request_class())
-        return answer is not None and answer.success
 
 
 if __name__ == "__main__":

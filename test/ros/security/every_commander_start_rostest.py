@@ -19,28 +19,12 @@ import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 import node_probes as probes
-from commanders import COMMANDERS, DEADLINE, VELOCITIES, CommanderTest, RunningCommander
+from commander_pairs import DRIVERS, PAIRS, PairTest
+from commanders import COMMANDERS, DEADLINE, VELOCITIES, RunningCommander
 from node_table import NODES
 from own_master import start_own_master
-from running_nodes import PACKAGE, RunningNode, executable, nodelet_program
+from running_nodes import PACKAGE
 from slow_master import SlowMaster
-
-DRIVERS = [name for name in COMMANDERS if "manual_control" in NODES[name].inputs]
-
-
-def commands(name):
-    """The topics of velocities and the actions that nobody else may command or offer."""
-    row = NODES[name]
-    return {topic for topic, kind in row.outputs.items() if kind in VELOCITIES} | set(row.actions)
-
-
-def is_joystick(name):
-    return "joy" in NODES[name].inputs
-
-
-def conflict(first, second):
-    """What both command, but for a driver and a joystick, to which it yields."""
-    return commands(first) & commands(second) if is_joystick(first) == is_joystick(second) else set()
 
 
 class RegisteringMaster(SlowMaster):
@@ -57,68 +41,7 @@ class RegisteringMaster(SlowMaster):
         return False
 
 
-PAIRS = [(first, second) for first in NODES for second in NODES if conflict(first, second)]
-
-
-class EveryCommanderStart(CommanderTest):
-    def started_node(self, name, kind):
-        """In a namespace of its own."""
-        row = NODES[name]._replace(arguments=COMMANDERS[name].arguments if name in COMMANDERS else NODES[name].arguments)
-        space = "/%s_%d" % (self.id().rsplit(".", 1)[1], len(self.started))
-        self.started.append(RunningNode(name, row, kind, self.clock, self.folder, space))
-        return self.started[-1]
-
-    def first(self, name, kind):
-        """A node that is to be alone, all there."""
-        node = self.started_node(name, kind)
-        self.assertTrue(probes.until(node, lambda: self.is_up(node.full_name()), time.monotonic() + DEADLINE),
-                        "%s: %s" % (node, self.said(node)))
-        return node
-
-    @staticmethod
-    def is_up(name):
-        """Whether it offers what a node offers last of all when it starts."""
-        services = rosgraph.Master("/every_commander_start").getSystemState()[2]
-        return any(service == name + "/set_parameters" for service, _ in services)
-
-    @staticmethod
-    def second(node, name, master=None):
-        """Started beside it, in its namespace and, of nodelets, its manager."""
-        words = ["__ns:=" + node.space, "__name:=second_" + name]
-        if node.kind == "process":
-            command = [executable(name)] + words
-        else:
-            command = [nodelet_program(), "load", "%s/%s" % (PACKAGE, name), "manager", "--no-bond"] + words
-        environment = dict(os.environ, ROS_MASTER_URI=master) if master else None
-        process = subprocess.Popen(command, stdout=node.log, stderr=subprocess.STDOUT, env=environment)
-        node.processes.append(process)
-        return process
-
-    def ends_refused(self, node, process, sentence, name):
-        """Neither the log nor a status says that it runs: it has ended with an error and the sentence."""
-        try:
-            code = process.wait(DEADLINE)
-        except subprocess.TimeoutExpired:
-            self.fail("%s runs beside %s: %s" % (name, node, self.said(node)))
-        node.processes.remove(process)
-        self.assertNotEqual(0, code, "%s beside %s: %s" % (name, node, self.said(node)))
-        self.assertRegex(self.said(node), sentence, "%s beside %s" % (name, node))
-        self.assertTrue(node.lives(), str(node))
-
-    def refused(self, first, second, kind, master=None):
-        node = self.first(first, kind)
-        process = self.second(node, second, master)
-        self.ends_refused(node, process, "the node %s (publishes|offers) " % node.full_name(), second)
-        node.end(signal.SIGKILL)
-
-    def test_a_second_process_is_refused_and_names_the_first(self):
-        for first, second in PAIRS:
-            self.refused(first, second, "process")
-
-    def test_a_second_nodelet_of_a_manager_is_refused_and_names_the_first(self):
-        for first, second in PAIRS:
-            self.refused(first, second, "nodelet")
-
+class EveryCommanderStart(PairTest):
     def test_of_two_that_start_at_once_one_at_most_stays(self):
         for first, second in [pair for pair in PAIRS if pair[0] in DRIVERS and pair[0] <= pair[1]]:
             node = self.started_node(first, "process")
@@ -197,18 +120,6 @@ class EveryCommanderStart(CommanderTest):
             self.assertEqual([], node.known_names(), kind)
             for name in names:
                 self.assertRaises(rosgraph.MasterError, rosgraph.Master("/every_commander_start").lookupNode, name)
-
-    def test_a_joystick_and_a_driver_stand_beside_each_other(self):
-        for driver in DRIVERS:
-            for kind in ("process", "nodelet"):
-                for first, second in ((driver, "teleop_joy"), ("teleop_joy", driver)):
-                    node = self.first(first, kind)
-                    process = self.second(node, second)
-                    name = "%s/second_%s" % (node.space, second)
-                    self.assertTrue(probes.until(node, lambda: self.is_up(name), time.monotonic() + DEADLINE),
-                                    "%s beside %s: %s" % (second, node, self.said(node)))
-                    self.assertIsNone(process.poll() if kind == "process" else None)
-                    node.end(signal.SIGKILL)
 
 
 if __name__ == "__main__":
