@@ -75,5 +75,12 @@ TEST(ActionStamps, AGoalThatItsCancelOvertookIsCancelledAndAnotherIsNot) {
   EXPECT_GT(stamps.ofGoal(ros::Time(2.0), ros::Time(2.0)), cancel);
 }
 
+// A client whose clock was an hour behind gave goals for an hour after a cancel with a stamp, and each was cancelled.
+TEST(ActionStamps, AGoalOfAClockAnHourBehindWasNotOvertaken) {
+  ActionStamps stamps;
+  const ros::Time cancel = stamps.ofCancel(ros::Time(5000.0), ros::Time(5000.0));
+  EXPECT_GT(stamps.ofGoal(ros::Time(1401.0), ros::Time(5001.0)), cancel);
+}
+
 }  // namespace
 }  // namespace grid_path_planner::nodes

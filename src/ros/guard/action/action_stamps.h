@@ -7,7 +7,8 @@
 // SimpleActionServer refuse every later one, as does /clock that begins anew; a cancel stamped so
 // cancels every later one; and where its id is unknown, no status is published any more. A cancel with a stamp is of all
 // goals that are stamped until then: of those that came, by the senders' stamps, which are remembered; one that comes
-// after its cancel has overtaken it is cancelled, too. Stamps that are ahead of the time here are of no clock.
+// after its cancel has overtaken it is cancelled, too. One whose stamp is more than 10 s before that cancel's was not overtaken:
+// no message is under way that long, so its sender's clock is another. Stamps that are ahead of the time here are of no clock.
 #pragma once
 
 #include <ros/time.h>
@@ -26,7 +27,8 @@ class ActionStamps {
   ros::Time ofGoal(ros::Time given, ros::Time now) {
     given = normalized(given);
     now = normalized(now);
-    if (!given.isZero() && given < cancelled_until_) return ros::TIME_MIN;
+    const double before = secondsBetween(given, cancelled_until_);
+    if (!given.isZero() && before > 0.0 && before <= kLongestUnderWay) return ros::TIME_MIN;
     const ros::Time stamp = next(now);
     goals_.push_back({given.isZero() || given > now ? now : given, stamp});
     if (goals_.size() > kMostGoals) goals_.pop_front();
@@ -57,6 +59,7 @@ class ActionStamps {
     ros::Time given;  // by its sender, or when it came
     ros::Time stamp;
   };
+  static constexpr double kLongestUnderWay = 10.0;  // s
   static constexpr std::size_t kMostGoals = 50;  // of which the last are meant by whoever cancels
 
   ros::Time next(const ros::Time& now) {
