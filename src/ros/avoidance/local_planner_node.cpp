@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "grid_path_planner/LocalPlannerConfig.h"
+#include "grid_path_planner/path/headings.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/guard/guarded_queue.h"
 #include "ros/guard/incoming/advertised_service.h"
@@ -250,11 +251,10 @@ void LocalPlannerNode::onGoal(const geometry_msgs::PoseStamped& goal) {
     return;
   }
   if (!goal.header.stamp.isZero() && isOfAnotherTime("A goal", goal.header.stamp)) return;
-  nav_msgs::Path message;
-  message.header = goal.header;
-  message.poses = {goal};
   try {
-    fly(transforms_.place(message, placingInMap()), false, handovers_);
+    path::Path route{options_.map_frame, {transforms_.place(goal, placingInMap())}};
+    path::lookAlongPath(route);
+    fly(route, false, handovers_);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
   }

@@ -230,12 +230,10 @@ void NavigatePathNode::startDriving() {
 }
 
 void NavigatePathNode::drive(const Path& path, Join join, unsigned handovers) {
-  const std::string& vehicle = options_.base_frame;
-  if (transforms_.movesWith(vehicle, path.frame_id))
-    throw InputError("the path is in the frame '" + path.frame_id + "', which moves with '" +
-                     vehicle + "': nobody arrives there");
+  Placing by = placing();
+  if (!isFar(path)) by.into = path.frame_id;
   try {
-    drive_ = loop_->start(isFar(path) ? transforms_.place(path, placing()) : path, join, handovers);
+    drive_ = loop_->start(transforms_.place(path, by), join, handovers);
   } catch (const TransformError& error) {
     throw InputError(error.what());
   }

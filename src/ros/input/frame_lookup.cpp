@@ -213,8 +213,15 @@ std::vector<Eigen::Vector3d> FrameLookup::place(std::vector<Eigen::Vector3d> poi
   return points;
 }
 
+void FrameLookup::checkStands(const std::string& frame, const Placing& by) const {
+  if (!by.vehicle.empty() && movesWith(by.vehicle, frame))
+    throw InputError("the path is in the frame '" + frame + "', which moves with '" + by.vehicle +
+                     "': nobody arrives there");
+}
+
 Path FrameLookup::place(const nav_msgs::Path& message, const Placing& by) const {
   const std::string frame = sourceOf(message.header, by);
+  checkStands(frame, by);
   if (!buffer_._frameExists(frame) && buffer_._frameExists(by.vehicle))
     throw InputError("the frame '" + frame + "' is not known to tf");
   const Placed of_path = place(message.header, by);
@@ -238,6 +245,7 @@ Path FrameLookup::place(const nav_msgs::Path& message, const Placing& by) const 
 }
 
 Path FrameLookup::place(Path path, const Placing& by) const {
+  checkStands(path.frame_id, by);
   const Placed frame = place(headerOf(path.frame_id, ros::Time()), by);
   const double turn = yawOf(frame.pose.linear());
   for (Pose& pose : path.poses) {

@@ -83,8 +83,8 @@ class FrameLookup {
   std::vector<Eigen::Vector3d> place(std::vector<Eigen::Vector3d> points,
                                      const std_msgs::Header& header, const Placing& by) const;
   // Poses that name another frame than the path are placed by their own headers. Throws InputError for a frame that tf
-  // does not know (while it knows by.vehicle), for such poses that have no place, and as above. Where no heading is given
-  // and any will do, the pose looks along the path.
+  // does not know (while it knows by.vehicle) or that moves with by.vehicle, for such poses that have no place, and as above.
+  // Where no heading is given and any will do, the pose looks along the path.
   path::Path place(const nav_msgs::Path& message, const Placing& by) const;
   path::Path place(path::Path path, const Placing& by) const;  // of a file
 
@@ -102,6 +102,7 @@ class FrameLookup {
   void clear() { buffer_.clear(); }
 
  private:
+  void checkStands(const std::string& frame, const Placing& by) const;
   // For what was measured at `stamp`; 0: the latest, of any age. Throws TransformError with the reason: a frame that
   // nothing names, a transform that has ceased, else tf2's.
   geometry_msgs::TransformStamped transform(const std::string& target, const std::string& source,

@@ -172,6 +172,21 @@ TEST_F(Place, APathHasItsPosesInOneFrame) {
                base::InputError);
 }
 
+// local_planner placed it once and flew it, where navigate_path refused it.
+TEST_F(Place, APathThatMovesWithTheVehicleIsRefusedAndAGoalIsNot) {
+  const Placing by{"map", 0.5, Moving::WITH_VEHICLE, "base_link"};
+  for (const char* frame : {"base_link", "camera"}) {
+    nav_msgs::Path path;
+    path.header.frame_id = frame;
+    path.poses = {poseIn("", 1.0)};
+    EXPECT_THROW(lookup_.place(path, by), base::InputError) << frame;
+    path::Path of_file;
+    of_file.frame_id = frame;
+    EXPECT_THROW(lookup_.place(of_file, by), base::InputError) << frame;
+    EXPECT_EQ(lookup_.place(poseIn(frame, 1.0), by).position.x(), 11.0) << frame;
+  }
+}
+
 // The tf of utm is millions of metres from the map; one whose quaternion has nine digits turned it by centimetres there.
 TEST(TransformsOfUtm, LeadToTheMillimetre) {
   FrameLookup lookup;
