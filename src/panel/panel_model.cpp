@@ -31,7 +31,8 @@ std::string countText(std::size_t count, const std::string& what) {
 
 void PanelModel::setPlanners(std::size_t count) {
   if (count == 0 && planners_ > 0 && planning_.busy()) {
-    planning_.giveUp("CANCELLED", "path_planner is gone: press Plan again when it is back");
+    planning_.giveUp(base::Status::CANCELLED,
+                     "path_planner is gone: press Plan again when it is back");
     showOutcome();
   }
   planners_ = count;
@@ -100,8 +101,8 @@ void PanelModel::planAgain() {
 
 std::optional<PlanRequest> PanelModel::tick(double now) {
   if (planning_.overdue(now)) {
-    planning_.giveUp(
-        "TIMEOUT", "path_planner has not answered for " + shownDuration(RoutePlanning::kPatience));
+    planning_.giveUp(base::Status::TIMEOUT, "path_planner has not answered for " +
+                                                shownDuration(RoutePlanning::kPatience));
     showOutcome();
   }
   if (driving_ && now - drive_heard_ > kPatienceWithDrives)
@@ -130,7 +131,7 @@ unsigned PanelModel::cancelPlan() {
   if (!planning_.busy()) return 0;
   const unsigned pending = planning_.pending();
   follows_ = false;
-  planning_.giveUp("CANCELLED", "planning was cancelled");
+  planning_.giveUp(base::Status::CANCELLED, "planning was cancelled");
   showOutcome();
   return pending;
 }
@@ -181,13 +182,13 @@ void PanelModel::driveHeard(const std::string& goal, const DriveFeedback& feedba
   progress_.add(feedback.time, feedback.remaining);
 }
 
-void PanelModel::driveEnded(const std::string& goal, const std::string& status,
+void PanelModel::driveEnded(const std::string& goal, bool arrived, const std::string& status,
                             const std::string& message) {
   const std::string id = goal.substr(0, kLongestGoal);
   ended_.push_back(id);
   if (ended_.size() > kMostEnded) ended_.pop_front();
   if (!driving_ || id == driven_) standStill(status);  // or another goal has taken its place
-  say(status == "ARRIVED" ? Tone::GOOD : Tone::BAD, status + ": " + message);
+  say(arrived ? Tone::GOOD : Tone::BAD, status + ": " + message);
 }
 
 void PanelModel::leaveDriver() {

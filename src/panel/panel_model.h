@@ -81,7 +81,8 @@ class PanelModel {
   void driveHeard(const std::string& goal, const DriveFeedback& feedback, double now);
   // The drives of another vehicle are shown from here on.
   void leaveDriver();
-  void driveEnded(const std::string& goal, const std::string& status, const std::string& message);
+  void driveEnded(const std::string& goal, bool arrived, const std::string& status,
+                  const std::string& message);
 
   // ---- What is shown
   void say(Tone tone, const std::string& sentence);

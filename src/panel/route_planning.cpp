@@ -30,11 +30,11 @@ bool RoutePlanning::take(unsigned id, const PlanAnswer& answer, double now) {
   return true;
 }
 
-void RoutePlanning::giveUp(const std::string& status, const std::string& message) {
+void RoutePlanning::giveUp(base::Status status, const std::string& message) {
   wanted_.reset();
   sent_ = false;
   outcome_ = PlanAnswer();
-  outcome_.status = status;
+  outcome_.status = toString(status);
   outcome_.message = message;
 }
 

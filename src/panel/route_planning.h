@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "grid_path_planner/base/status.h"
 #include "panel/route_points.h"
 
 namespace grid_path_planner::panel {
@@ -38,7 +39,7 @@ struct PlanAnswer {
   path::Path path;              // empty unless FOUND
   PlanFigures figures;
 
-  bool found() const { return status == "FOUND"; }
+  bool found() const { return base::statusFromName(status) == base::Status::FOUND; }
 };
 
 class RoutePlanning {
@@ -54,7 +55,7 @@ class RoutePlanning {
   // Whether that is the answer that was waited for: outcome() is new.
   bool take(unsigned id, const PlanAnswer& answer, double now);
   // Ends what runs and what waits, with this outcome.
-  void giveUp(const std::string& status, const std::string& message);
+  void giveUp(base::Status status, const std::string& message);
   bool overdue(double now) const;
 
   bool busy() const { return wanted_ || sent_; }

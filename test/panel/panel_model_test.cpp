@@ -70,7 +70,7 @@ TEST_F(PanelModelTest, WhatMayBePressed) {
   EXPECT_EQ(pressable(), "PCE-U-XS") << "driving";
   model_.driveHeard("1", {"paused", 1, 3.0, 0.0}, 0.0);
   EXPECT_EQ(pressable(), "PCE--RXS") << "paused";
-  model_.driveEnded("1", "ARRIVED", "there");
+  model_.driveEnded("1", true, "ARRIVED", "there");
   EXPECT_EQ(pressable(), "PCEDURXS");
   model_.clear();
   EXPECT_EQ(pressable(), "----URX-");
@@ -212,13 +212,13 @@ TEST_F(PanelModelTest, FeedbackAfterTheResultIsPassedOver) {
   setGoal();
   planAndFind();
   model_.driveSent("1", 0.0);
-  model_.driveEnded("1", "ARRIVED", "there");
+  model_.driveEnded("1", true, "ARRIVED", "there");
   model_.driveHeard("1", {"driving", 1, 0.1, 0.0}, 0.1);
   EXPECT_EQ(model_.driveText(), "ARRIVED");
   EXPECT_EQ(pressable(), "PCEDURXS");
   model_.driveHeard("2", {"driving", 0, 3.0, 0.0}, 0.2);
   EXPECT_EQ(pressable(), "PCE-U-XS") << "another goal";
-  model_.driveEnded("3", "CANCELLED", "replaced by another goal");
+  model_.driveEnded("3", false, "CANCELLED", "replaced by another goal");
   EXPECT_EQ(pressable(), "PCE-U-XS") << "not that one";
 }
 
@@ -301,7 +301,7 @@ TEST_F(PanelModelTest, NoStateIsForEver) {
         model_.driveHeard(std::to_string(round - round % 9), {"driving", 1, 1.0, now}, now);
         break;
       case 11:
-        model_.driveEnded(std::to_string(round - round % 7), "ARRIVED", "there");
+        model_.driveEnded(std::to_string(round - round % 7), true, "ARRIVED", "there");
         break;
       default:
         break;

@@ -45,13 +45,13 @@ FlightAction::FlightAction(const ros::NodeHandle& nh, const NodeFiles& files, Ha
 FlightAction::~FlightAction() {
   reader_.stop();
   nh_.getCallbackQueue()->removeByID(reinterpret_cast<std::uint64_t>(this));
-  if (active_) finish("CANCELLED", "local_planner ends");
+  if (active_) finish(PilotStatus::CANCELLED, "local_planner ends");
 }
 
 void FlightAction::onGoal() {
   if (active_) {
     hands_.cancel("replaced by another goal");  // whatever becomes of that
-    finish("CANCELLED", "replaced by another goal");
+    finish(PilotStatus::CANCELLED, "replaced by another goal");
   }
   const auto goal = server_.acceptNewGoal();
   active_ = true;
@@ -76,7 +76,7 @@ void FlightAction::onPreempt() {
 
 bool FlightAction::cancelReading(const std::string& reason) {
   if (!active_ || !std::exchange(is_read_, false)) return false;
-  finish("CANCELLED", reason);
+  finish(PilotStatus::CANCELLED, reason);
   return true;
 }
 
@@ -104,16 +104,16 @@ void FlightAction::start(const std::function<Path()>& read, bool along, unsigned
     flown_ = hands_.fly(read(), along, handovers);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The goal of the action is refused: " << error.what());
-    finish("INVALID_REQUEST", error.what());
+    refuse(error.what());
   } catch (...) {
-    finish("INVALID_REQUEST", "the goal was given up: " + base::currentErrorText());
+    refuse("the goal was given up: " + base::currentErrorText());
   }
 }
 
 void FlightAction::report(const PilotAnswer& answer, const VehiclePose& at) {
   at_ = at;
   if (!active_ || is_read_) return;
-  if (hasEnded(answer.status)) return finish(toString(answer.status), answer.sentence);
+  if (hasEnded(answer.status)) return finish(answer.status, answer.sentence);
   const auto now = ros::SteadyTime::now();
   if ((now - told_).toSec() < kFeedbackEvery) return;
   told_ = now;
@@ -140,7 +140,21 @@ double FlightAction::remaining(std::size_t waypoint) const {
   return length;
 }
 
-void FlightAction::finish(const std::string& status, const std::string& message) {
+void FlightAction::finish(PilotStatus status, const std::string& message) {
+  const NavigatePathResult result = endedWith(toString(status), message);
+  if (status == PilotStatus::ARRIVED)
+    server_.setSucceeded(result, message);
+  else if (status == PilotStatus::CANCELLED && server_.isPreemptRequested())
+    server_.setPreempted(result, message);
+  else
+    server_.setAborted(result, message);
+}
+
+void FlightAction::refuse(const std::string& message) {
+  server_.setAborted(endedWith("INVALID_REQUEST", message), message);
+}
+
+NavigatePathResult FlightAction::endedWith(const std::string& status, const std::string& message) {
   active_ = false;
   NavigatePathResult result;
   result.status = status;
@@ -149,12 +163,7 @@ void FlightAction::finish(const std::string& status, const std::string& message)
     result.position_error_m = (flown_.poses.back().position - at_.position).norm();
     result.yaw_error_rad = std::abs(std::remainder(flown_.poses.back().yaw - at_.yaw, 2.0 * M_PI));
   }
-  if (status == "ARRIVED")
-    server_.setSucceeded(result, message);
-  else if (status == "CANCELLED" && server_.isPreemptRequested())
-    server_.setPreempted(result, message);
-  else
-    server_.setAborted(result, message);
+  return result;
 }
 
 }  // namespace grid_path_planner::nodes

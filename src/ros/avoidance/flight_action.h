@@ -49,7 +49,9 @@ class FlightAction {
   void onPreempt();
   void readFile(const std::string& filename);
   void start(const std::function<path::Path()>& read, bool along, unsigned handovers);
-  void finish(const std::string& status, const std::string& message);
+  void finish(avoidance::PilotStatus status, const std::string& message);
+  void refuse(const std::string& message);
+  NavigatePathResult endedWith(const std::string& status, const std::string& message);
   void giveFeedback(const avoidance::PilotAnswer& answer);
   double remaining(std::size_t waypoint) const;
 

@@ -2,7 +2,7 @@
 //
 //   ActionLink<PlanPathAction> link(nh, "plan_path");
 //   link.onFeedback = [](const std::string&, const PlanPathFeedback& feedback) { use(feedback); };
-//   link.onResult = [](const std::string&, const PlanPathResult& result) { use(result); };
+//   link.onResult = [](const PlanPathActionResult& message) { use(message.result); };
 //   const std::string id = link.send(goal);
 //   link.cancel(id);
 //
@@ -32,7 +32,6 @@ class ActionLink {
   using ActionResult = typename Action::_action_result_type;
   using Goal = typename ActionGoal::_goal_type;
   using Feedback = typename ActionFeedback::_feedback_type;
-  using Result = typename ActionResult::_result_type;
 
   ActionLink(ros::NodeHandle nh, const std::string& name)
       : goals_(nh.advertise<ActionGoal>(name + "/goal", 10)),
@@ -45,10 +44,10 @@ class ActionLink {
                                                        onFeedback(message.status.goal_id.id,
                                                                   message.feedback);
                                                    })),
-        results_(subscribeChecked<ActionResult>(
-            nh, name + "/result", 10, [this](const ActionResult& message) {
-              if (onResult) onResult(message.status.goal_id.id, message.result);
-            })) {}
+        results_(subscribeChecked<ActionResult>(nh, name + "/result", 10,
+                                                [this](const ActionResult& message) {
+                                                  if (onResult) onResult(message);
+                                                })) {}
   ActionLink(const ActionLink&) = delete;
   ActionLink& operator=(const ActionLink&) = delete;
 
@@ -76,7 +75,7 @@ class ActionLink {
   }
 
   std::function<void(const std::string& id, const Feedback&)> onFeedback;
-  std::function<void(const std::string& id, const Result&)> onResult;
+  std::function<void(const ActionResult&)> onResult;
 
  private:
   // Who publishes the status is all that is asked.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "grid_path_planner/base/status.h"
 #include "grid_path_planner/planners/planner_factory.h"
 #include "panel/planner_colours.h"
 #include "panel/shown_text.h"
@@ -77,7 +78,8 @@ void ComparisonTable::show(const std::vector<PlanStatistics>& results) {
     const auto result =
         std::find_if(results.begin(), results.end(),
                      [&](const PlanStatistics& one) { return one.planner == name; });
-    const bool there = result != results.end(), found = there && result->status == "FOUND";
+    const bool there = result != results.end(),
+               found = there && base::statusFromName(result->status) == base::Status::FOUND;
     setText(row, COST,
             found ? shownNumber(result->cost) : shownText(there ? result->status : "", 12));
     setText(row, LENGTH, found ? shownNumber(result->length_m) : "");

@@ -22,9 +22,11 @@ void PlanPanel::connectDrives() {
         {heard.state, heard.current_waypoint, heard.distance_remaining_m, ros::Time::now().toSec()},
         now());
   };
-  nodes_->drive.onResult = [this](const std::string& id, const NavigatePathResult& result) {
+  nodes_->drive.onResult = [this](const NavigatePathActionResult& message) {
+    const std::string& id = message.status.goal_id.id;
     if (id == drive_) drive_.clear();
-    model_.driveEnded(id, result.status, result.message);
+    const bool arrived = message.status.status == actionlib_msgs::GoalStatus::SUCCEEDED;
+    model_.driveEnded(id, arrived, message.result.status, message.result.message);
   };
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "grid_path_planner/base/errors.h"
+#include "grid_path_planner/base/status.h"
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/ros/conversions.h"
 #include "panel/path_corners.h"
@@ -54,7 +55,7 @@ PlanAnswer answerOf(const PlanPathResult& result) {
   try {
     answer.path = pathFromMessage(result.path);
   } catch (const InputError& error) {
-    answer.status = "INVALID_REQUEST";
+    answer.status = toString(base::Status::INVALID_REQUEST);
     answer.message = std::string("the planner's path cannot be used: ") + error.what();
   }
   return answer;
@@ -79,7 +80,7 @@ std::pair<geometry_msgs::PoseStamped, geometry_msgs::PoseStamped> endsOf(
 // "; rectangle_map: INVALID_REQUEST: …", "" where every planner found a path.
 std::string firstWithout(const std::vector<PlanStatistics>& results) {
   for (const PlanStatistics& result : results)
-    if (result.status != "FOUND")
+    if (base::statusFromName(result.status) != base::Status::FOUND)
       return "; " + result.planner + ": " + result.status + ": " + result.message;
   return "";
 }
@@ -109,7 +110,9 @@ void PlanPanel::connectPlans() {
     const auto known = requests_.find(id);
     if (known != requests_.end()) model_.planHeard(known->second, feedback.phase, now());
   };
-  nodes_->plan.onResult = [this](const std::string& id, const PlanPathResult& result) {
+  nodes_->plan.onResult = [this](const PlanPathActionResult& message) {
+    const std::string& id = message.status.goal_id.id;
+    const PlanPathResult& result = message.result;
     const auto known = requests_.find(id);
     if (known != requests_.end()) model_.planAnswered(known->second, answerOf(result), now());
   };
@@ -157,7 +160,7 @@ void PlanPanel::showComparison(const ComparePlans::Response& response, unsigned 
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
     compared_.push_back({response.results[i].planner, pathOrNothing(response.paths[i])});
-    if (response.results[i].status == "FOUND") ++found;
+    if (base::statusFromName(response.results[i].status) == base::Status::FOUND) ++found;
   }
   draw();
   model_.callEnded(found > 0 ? Tone::GOOD : Tone::BAD,
@@ -185,7 +188,8 @@ void PlanPanel::showExplanation(const ExplainPlan::Response& why, unsigned point
   }
   explanation_ = explanationMarkers(why, model_.points().frame());
   draw();
-  model_.callEnded(why.status == "FOUND" ? Tone::GOOD : Tone::BAD, why.status + ": " + why.message);
+  model_.callEnded(base::statusFromName(why.status) == base::Status::FOUND ? Tone::GOOD : Tone::BAD,
+                   why.status + ": " + why.message);
 }
 
 void PlanPanel::setParameter(const dynamic_reconfigure::Config& change) {
