@@ -19,13 +19,11 @@ constexpr int kRestAfterCounting = 50;  // times what counting the memory took
 
 MappingDiagnostics::MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh,
                                        const InputBase& clouds, MappingThread& thread,
-                                       const ProjectedMapPublisher& map,
-                                       const OctreePublisher& octree, const MapAutosave* autosave,
-                                       double autosave_period)
+                                       MappingPublications& publications,
+                                       const MapAutosave* autosave, double autosave_period)
     : clouds_(clouds),
       thread_(thread),
-      map_(map),
-      octree_(octree),
+      publications_(publications),
       autosave_(autosave),
       autosave_period_(autosave_period),
       updater_(nh, private_nh, private_nh.getNamespace()) {
@@ -90,7 +88,7 @@ void MappingDiagnostics::reportClouds(diagnostic_updater::DiagnosticStatusWrappe
 void MappingDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
   std::lock_guard<std::mutex> lock(mutex_);
   status.summary(DiagnosticStatus::OK, figures_.nodes == 0 ? "the map is empty" : "a map is there");
-  if (map_.owesMap())
+  if (publications_.map().owesMap())
     status.summary(DiagnosticStatus::WARN, "projected_map cannot be made, or was not sent");
   else if (full_)
     status.summary(DiagnosticStatus::WARN, "the map takes memory_limit: nothing new is added");
@@ -101,7 +99,7 @@ void MappingDiagnostics::reportMap(diagnostic_updater::DiagnosticStatusWrapper& 
   status.add("resolution", figures_.resolution);
   status.add("projections", figures_.projections);
   status.add("left_out_m2", figures_.area_left_out);
-  status.add("tree_messages", octree_.builds());
+  status.add("tree_messages", publications_.octree().builds());
 }
 
 void MappingDiagnostics::reportAutosave(diagnostic_updater::DiagnosticStatusWrapper& status) {

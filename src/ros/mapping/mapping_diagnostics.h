@@ -25,9 +25,8 @@
 #include "grid_path_planner/mapping/map_model.h"
 #include "ros/input/input.h"
 #include "ros/mapping/map_autosave.h"
+#include "ros/mapping/mapping_publications.h"
 #include "ros/mapping/mapping_thread.h"
-#include "ros/mapping/octree_publisher.h"
-#include "ros/mapping/projected_map_publisher.h"
 
 namespace grid_path_planner::nodes {
 
@@ -35,10 +34,8 @@ class MappingDiagnostics {
  public:
   // All that is given by reference or pointer outlives this; `autosave` is null where there is none.
   MappingDiagnostics(ros::NodeHandle nh, ros::NodeHandle private_nh, const InputBase& clouds,
-                     MappingThread& thread, const ProjectedMapPublisher& map,
-                     const OctreePublisher& octree, const MapAutosave* autosave,
-                     double autosave_period);
-  ~MappingDiagnostics() { timer_.stop(); }
+                     MappingThread& thread, MappingPublications& publications,
+                     const MapAutosave* autosave, double autosave_period);
 
   // Records an insertion. Thread-safe.
   void recordInsertion(const mapping::MapModel::Inserted& inserted);
@@ -61,8 +58,7 @@ class MappingDiagnostics {
 
   const InputBase& clouds_;
   MappingThread& thread_;
-  const ProjectedMapPublisher& map_;
-  const OctreePublisher& octree_;
+  MappingPublications& publications_;
   const MapAutosave* autosave_;
   const double autosave_period_;  // s
   std::mutex mutex_;
@@ -75,7 +71,7 @@ class MappingDiagnostics {
   std::uint64_t reported_drops_ = 0;
   Clock::time_point measure_not_before_;  // used in the mapping thread
   diagnostic_updater::Updater updater_;
-  ros::SteadyTimer timer_;
+  ros::SteadyTimer timer_;  // destroyed before what it calls
 };
 
 }  // namespace grid_path_planner::nodes

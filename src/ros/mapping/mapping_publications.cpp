@@ -49,11 +49,6 @@ void MappingPublications::post() {
   thread_.post("publish", [this](MapModel& map) { publish(map); });
 }
 
-void MappingPublications::stop() {
-  publish_timer_.stop();
-  heartbeat_timer_.stop();
-}
-
 void MappingPublications::publish(MapModel& map) {
   if (!ros::Time::isValid()) return;
   decay(map);

@@ -23,8 +23,6 @@ class MappingPublications {
   void use(const mapping::ProjectedMapOptions& options);
   // After what the mapping thread has to do already. Thread-safe.
   void post();
-  // No more by themselves.
-  void stop();
   // Of the octree's services: asks the master, which may not answer.
   void shutdown() { octree_.shutdown(); }
 
@@ -42,8 +40,8 @@ class MappingPublications {
   const FrameLookup& transforms_;
   ProjectedMapPublisher map_;
   OctreePublisher octree_;
-  ros::Time decayed_until_;  // of the mapping thread
-  ros::SteadyTimer publish_timer_, heartbeat_timer_;
+  ros::Time decayed_until_;                           // of the mapping thread
+  ros::SteadyTimer publish_timer_, heartbeat_timer_;  // destroyed before what they call
 };
 
 }  // namespace grid_path_planner::nodes

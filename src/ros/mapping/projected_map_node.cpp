@@ -118,9 +118,8 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
       private_service_nh, *thread_, files_,
       MappingServices::Listener{[this] { publications_->post(); }, [this] { forgetAll(); },
                                 [this](MapModel& map) { insertAll(map); }});
-  diagnostics_ = std::make_unique<MappingDiagnostics>(nh, private_nh, *clouds_, *thread_,
-                                                      publications_->map(), publications_->octree(),
-                                                      autosave_.get(), options.autosave_period);
+  diagnostics_ = std::make_unique<MappingDiagnostics>(
+      nh, private_nh, *clouds_, *thread_, *publications_, autosave_.get(), options.autosave_period);
   service_spinner_.start();
 
   if (filename_.empty())
@@ -132,22 +131,13 @@ ProjectedMapNode::ProjectedMapNode(ros::NodeHandle& nh, ros::NodeHandle& private
 
 ProjectedMapNode::~ProjectedMapNode() {
   service_spinner_.stop();
-  saveAtTheEnd();
+  const auto keep = [this](MapModel& map) { save(map, MapAutosave::When::AT_ONCE); };
+  if (autosave_) guarded("Keeping the map at the end", [&] { thread_->run(keep); });
   clouds_->shutdown();  // asks the master, which may not answer
   reconfigurable_.reset();
   services_->shutdown();
   publications_->shutdown();
   thread_->stop();
-}
-
-// There may be no memory for it.
-void ProjectedMapNode::saveAtTheEnd() {
-  if (!autosave_) return;
-  try {
-    thread_->run([this](MapModel& map) { save(map, MapAutosave::When::AT_ONCE); });
-  } catch (...) {
-    tellGivenUp("Keeping the map at the end");
-  }
 }
 
 // The name of a file is looked for once: what was loaded may be gone when another option changes.

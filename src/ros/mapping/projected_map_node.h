@@ -65,7 +65,6 @@ class ProjectedMapNode {
   void warnOfSilence() const;
   void postInsertion();
   void startAutosave(const ros::NodeHandle& nh, double period);
-  void saveAtTheEnd();
 
   // In the map's thread
   void forgetAll();
@@ -88,7 +87,7 @@ class ProjectedMapNode {
   std::unique_ptr<MappingServices> services_;
   std::unique_ptr<MappingDiagnostics> diagnostics_;
   std::unique_ptr<Reconfigurable<ProjectedMapConfig, mapping::ProjectedMapOptions>> reconfigurable_;
-  ros::SteadyTimer autosave_timer_, silence_timer_;
+  ros::SteadyTimer autosave_timer_, silence_timer_;  // destroyed before what they call
 };
 
 }  // namespace grid_path_planner::nodes
