@@ -30,7 +30,7 @@ LENT = {
     "base/child_process.h": {"simulation"},
     "base/cholesky.h": {"localization", "trials", "vision"},
     "base/committed.h": {"planning", "ros_planning"},
-    "base/current_error.h": {"ros_adapters", "ros_avoidance", "ros_guard", "ros_driving", "ros_layers", "ros_planning", "ros_rviz"},
+    "base/current_error.h": {"ros_adapters", "ros_avoidance", "ros_guard", "ros_driving", "ros_planning", "ros_rviz"},
     "base/plain_text.h": {"ros_guard", "simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/rebuildable.h": {"planning"},

@@ -93,9 +93,9 @@ INPUTS = {
                                                                      "its path and its name of a file"))},
     "ros/driving/speed_limit_receiver.cpp": {"nav_msgs::OccupancyGrid": "speed_limit_map"},
     "ros/driving/teleop_joy_node.cpp": {"TeleopJoyOptions": "config_message"},
-    "ros/layers/map_layers_node.cpp": {
-        "MapLayersOptions": "config_message", "nav_msgs::OccupancyGrid": "layer_maps", "std_msgs::Empty": HANDED_OVER},
-    "ros/layers/map_layers_node.h": {"sensor_msgs::LaserScan": "scan_message"},
+    "ros/layers/layer_inputs.cpp": {"nav_msgs::OccupancyGrid": "layer_maps", "std_msgs::Empty": HANDED_OVER},
+    "ros/layers/layer_inputs.h": {"sensor_msgs::LaserScan": "scan_message"},
+    "ros/layers/map_layers_node.cpp": {"MapLayersOptions": "config_message"},
     "ros/localization/marker_localizer_node.cpp": {
         "CameraInfo": "camera_info_message", "Image": "image_message", "sensor_msgs::Image": "image_message", "MarkerLocalizerOptions": "vehicle_config_message",
         "Trigger": NO_REQUEST},

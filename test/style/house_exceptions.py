@@ -38,7 +38,6 @@ LARGE_CLASSES = {  # below src/ros/: members
     "FlightCommander": 21,
     "GoToPoseNode": 32,
     "LocalPlannerNode": 31,
-    "MapLayersNode": 28,
     "MarkerLocalizerNode": 22,
     "NavigatePathNode": 31,
     "PanelWidgets": 20,

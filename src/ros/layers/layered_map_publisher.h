@@ -34,7 +34,6 @@ class LayeredMapPublisher {
 
   MapTopic topic_;
   ros::Publisher speed_limits_;
-  bool owes_limits_ = false;
   bool sent_ = false;  // a map that still holds
 };
 

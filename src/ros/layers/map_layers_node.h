@@ -23,20 +23,13 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 #include <ros/steady_timer.h>
-#include <sensor_msgs/LaserScan.h>
 
-#include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "layers/layered_map.h"
 #include "ros/guard/node_files.h"
-#include "ros/guard/node_time.h"
-#include "ros/input/frame_lookup.h"
-#include "ros/input/input.h"
-#include "ros/input/map_receiver.h"
-#include "ros/layers/layer_source.h"
+#include "ros/layers/layer_inputs.h"
 #include "ros/layers/layered_map_publisher.h"
 
 namespace grid_path_planner {
@@ -58,60 +51,25 @@ class MapLayersNode {
   ~MapLayersNode();
 
  private:
-  using Scans = Input<sensor_msgs::LaserScan>;
-
   layers::Zones loadZones(const layers::MapLayersOptions& options) const;
-  void listen();
-  void listenToMask(LayerSource& source, const std::string& topic,
-                    std::function<void(layers::LayeredMap::Map)> use);
   void startPublishing();
   void use(layers::MapLayersOptions options);
-  // Carries out what may refuse a message of `source`.
-  void take(LayerSource& source, const ros::Time& stamp, const std::function<void()>& work);
-  void onStaticMap(const MapChange& change);
-  void onLiveMap(const MapChange& change);
-  void onLiveHeartbeat();
-  void onScan(const Scans::Arrival& scan);
-  void onClearScan();
-  void timeWentBack(double seconds);
-  void beginScansAnew(const std::string& why);
-  void expireScans();
-  // What changes the map: where it fails, for want of memory, all is laid again.
-  template <class Work>
-  void lay(Work work);
-  void layAgain();
-  void layAndPublish();
   void publish();
   void publishHeartbeat();
-  // Why there is no map now, in a sentence; empty where there is.
-  std::string whyHeld();
-  // `why` a source cannot be used; empty where it is dropped for it, as stale sources are that are silent.
-  std::string unlessDropped(const std::string& why, bool is_silent, layers::Layer layer);
-  // Up to when the map holds what all sensors saw that are used; 0 without one.
-  ros::Time newestOfAll() const;
-  void warnOfZonesOutside() const;
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle nh_;
   NodeFiles files_;
   layers::MapLayersOptions options_;
   layers::Zones zones_;
-  FrameTransforms transforms_;
   layers::LayeredMap map_;
-  LayerSource static_source_, live_source_, keep_out_source_, speed_source_;
-  bool live_dropped_ = false, scan_dropped_ = false;
-  bool lays_again_ = false;                         // what was to be laid was not, or in part
+  LayerInputs inputs_;
   std::string held_ = "the node has just started";  // why there is no map
-  std::unique_ptr<Scans> scans_;                    // with use_scan
-  ros::Time expired_;                               // when scans were last looked through
   LayeredMapPublisher publisher_;
-
-  MapReceiver static_maps_, live_maps_;
-  std::vector<ros::Subscriber> subscribers_;
   diagnostic_updater::Updater diagnostics_;
+  // What calls is destroyed before what it calls.
   ros::SteadyTimer publish_timer_, heartbeat_timer_, diagnostics_timer_;
   std::unique_ptr<Reconfigurable<MapLayersConfig, layers::MapLayersOptions>> reconfigurable_;
-  std::shared_ptr<void> on_jump_back_;
 };
 
 }  // namespace grid_path_planner::nodes
