@@ -41,7 +41,6 @@ LARGE_CLASSES = {  # below src/ros/: members
     "MarkerLocalizerNode": 22,
     "NavigatePathNode": 31,
     "PanelWidgets": 20,
-    "SimulatorNode": 25,
     "VehicleLocalizerNode": 24,
 }
 

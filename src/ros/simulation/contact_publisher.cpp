@@ -14,15 +14,11 @@ ContactPublisher::ContactPublisher(ros::NodeHandle& nh)
     : count_publisher_(nh.advertise<std_msgs::UInt32>("contacts", 1, true)),
       name_publisher_(nh.advertise<std_msgs::String>("contact", 1, true)) {}
 
-void ContactPublisher::start(const Vehicle& vehicle) {
-  publish(vehicle);
-}
-
 void ContactPublisher::update(const Vehicle& vehicle) {
-  if (published_ >= 0 && published_ != vehicle.contacts()) publish(vehicle);
+  if (hasStarted() && published_ != vehicle.contacts()) start(vehicle);
 }
 
-void ContactPublisher::publish(const Vehicle& vehicle) {
+void ContactPublisher::start(const Vehicle& vehicle) {
   const bool is_new = vehicle.contacts() > published_ && vehicle.contacts() > 0;
   published_ = vehicle.contacts();
   std_msgs::UInt32 count;

@@ -18,14 +18,13 @@ class ContactPublisher {
  public:
   explicit ContactPublisher(ros::NodeHandle& nh);
 
-  // After the obstacles were set or replaced: publishes the present count.
+  // After the obstacles were set or replaced: publishes the present contacts.
   void start(const simulation::Vehicle& vehicle);
+  bool hasStarted() const { return published_ >= 0; }
   // Publishes contacts since the last call.
   void update(const simulation::Vehicle& vehicle);
 
  private:
-  void publish(const simulation::Vehicle& vehicle);
-
   ros::Publisher count_publisher_;
   ros::Publisher name_publisher_;
   int published_ = -1;  // before `start`

@@ -1,5 +1,6 @@
 #include "ros/simulation/depth_camera_publisher.h"
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -12,6 +13,8 @@
 namespace grid_path_planner::nodes {
 
 using base::sameOptions;
+using base::StopSource;
+using base::StopToken;
 using simulation::DepthCameraOptions;
 using simulation::VehicleState;
 using simulation::World;
@@ -53,21 +56,12 @@ std::vector<geometry_msgs::TransformStamped> cameraTransforms(const DepthCameraO
 DepthCameraPublisher::DepthCameraPublisher(ros::NodeHandle& nh, const World& world,
                                            const DepthCameraOptions& options,
                                            const CameraFrameNames& frames)
-    : camera_(world, options), frames_(frames), period_ns_(std::llround(1e9 / options.rate)) {
-  points_publisher_ = nh.advertise<sensor_msgs::PointCloud2>("depth_camera/points", 10);
-  info_publisher_ = nh.advertise<sensor_msgs::CameraInfo>("depth_camera/camera_info", 10);
-  thread_ = std::thread([this] { renderLoop(); });
-}
-
-DepthCameraPublisher::~DepthCameraPublisher() {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    stopping_ = true;
-  }
-  stop_.cancel();
-  changed_.notify_all();
-  thread_.join();
-}
+    : camera_(world, options),
+      frames_(frames),
+      period_ns_(std::llround(1e9 / options.rate)),
+      points_publisher_(nh.advertise<sensor_msgs::PointCloud2>("depth_camera/points", 10)),
+      info_publisher_(nh.advertise<sensor_msgs::CameraInfo>("depth_camera/camera_info", 10)),
+      renderer_([](const std::string& error) { tellGivenUp("A picture of the camera", error); }) {}
 
 bool DepthCameraPublisher::same(const DepthCameraOptions& options,
                                 const CameraFrameNames& frames) const {
@@ -76,8 +70,7 @@ bool DepthCameraPublisher::same(const DepthCameraOptions& options,
 }
 
 bool DepthCameraPublisher::busy() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return shot_.has_value();
+  return task_ && !task_->waitFor(std::chrono::seconds(0));
 }
 
 void DepthCameraPublisher::capture(const VehicleState& state, std::int64_t time_ns,
@@ -86,33 +79,18 @@ void DepthCameraPublisher::capture(const VehicleState& state, std::int64_t time_
   next_ns_ = (frame + 1) * period_ns_;
   if (points_publisher_.getNumSubscribers() == 0 && info_publisher_.getNumSubscribers() == 0)
     return;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    shot_ = Shot{mapFromBase(state) * camera_.baseFromOptical(), static_cast<std::uint64_t>(frame),
-                 stamp};
-  }
-  changed_.notify_all();
-}
-
-void DepthCameraPublisher::renderLoop() {
-  std::unique_lock<std::mutex> lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [this] { return stopping_ || shot_; });
-    if (stopping_) return;
-    const Shot shot = *shot_;
-    lock.unlock();
+  const Shot shot{mapFromBase(state) * camera_.baseFromOptical(), static_cast<std::uint64_t>(frame),
+                  stamp};
+  task_ = renderer_.post([this, shot](const StopSource& stop) {
     try {
-      render(shot);
+      render(shot, stop.token());
     } catch (const base::Stopped&) {  // the camera ends
-    } catch (...) {
-      tellGivenUp("A picture of the camera");
     }
-    lock.lock();
-    shot_.reset();
-  }
+  });
 }
 
-void DepthCameraPublisher::render(const Shot& shot) {
+// In the renderer's thread.
+void DepthCameraPublisher::render(const Shot& shot, const StopToken& stop) {
   const DepthCameraOptions& o = camera_.options();
   sensor_msgs::CameraInfo info = cameraInfoOf(camera_.intrinsics(), o.width, o.height);
   info.header.frame_id = frames_.optical;
@@ -120,7 +98,7 @@ void DepthCameraPublisher::render(const Shot& shot) {
   info_publisher_.publish(info);
   if (points_publisher_.getNumSubscribers() == 0) return;
   std::vector<float> points;
-  camera_.render(shot.map_from_optical, shot.frame, points, {}, stop_.token());
+  camera_.render(shot.map_from_optical, shot.frame, points, {}, stop);
   const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(emptyCloud(o));
   cloud->header = info.header;
   cloud->data.resize(points.size() * sizeof(float));

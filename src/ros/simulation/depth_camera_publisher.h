@@ -21,16 +21,12 @@
 #include <ros/publisher.h>
 #include <sensor_msgs/PointCloud2.h>
 
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "grid_path_planner/base/stop_token.h"
+#include "grid_path_planner/base/task_queue.h"
 #include "grid_path_planner/simulation/depth_camera.h"
 #include "grid_path_planner/simulation/vehicle.h"
 
@@ -48,13 +44,10 @@ std::vector<geometry_msgs::TransformStamped> cameraTransforms(
 
 class DepthCameraPublisher {
  public:
-  // Throws InputError as DepthCamera's constructor does.
+  // Throws InputError as DepthCamera's constructor does. The destructor leaves the image that is being rendered unfinished.
   DepthCameraPublisher(ros::NodeHandle& nh, const simulation::World& world,
                        const simulation::DepthCameraOptions& options,
                        const CameraFrameNames& frames);
-  // Leaves the image that is being rendered unfinished.
-  ~DepthCameraPublisher();
-
   // Whether this is the camera that these would give.
   bool same(const simulation::DepthCameraOptions& options, const CameraFrameNames& frames) const;
 
@@ -72,8 +65,7 @@ class DepthCameraPublisher {
     ros::Time stamp;
   };
 
-  void renderLoop();
-  void render(const Shot& shot);
+  void render(const Shot& shot, const base::StopToken& stop);
 
   simulation::DepthCamera camera_;
   CameraFrameNames frames_;
@@ -81,13 +73,8 @@ class DepthCameraPublisher {
   std::int64_t next_ns_ = 0;
   ros::Publisher points_publisher_;
   ros::Publisher info_publisher_;
-
-  base::StopSource stop_;
-  mutable std::mutex mutex_;  // of the following
-  std::condition_variable changed_;
-  std::optional<Shot> shot_;  // until it is published
-  bool stopping_ = false;
-  std::thread thread_;
+  std::shared_ptr<base::TaskQueue::Task> task_;  // of the last image
+  base::TaskQueue renderer_;                     // ends first
 };
 
 }  // namespace grid_path_planner::nodes

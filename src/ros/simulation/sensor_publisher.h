@@ -1,8 +1,8 @@
 // The navigation sensors of a simulated vehicle as topics.
 //
-//   SensorPublisher publisher(nh);
-//   publisher.setOptions(sensor_options);
-//   publisher.publish(readings, frames, "map", stamp_of);     // after /clock of their time
+//   SensorPublisher sensors(nh, sensor_options, world, faults);
+//   sensors.advance(vehicle.state(), vehicle.timeNs());  // after each step
+//   sensors.publish(frames, "map", stamp_of);            // after /clock of their time
 //
 //   imu/data      sensor_msgs/Imu, in imu_link (REP 145)
 //   dvl/twist     geometry_msgs/TwistWithCovarianceStamped, in dvl_link; none without bottom lock
@@ -20,34 +20,47 @@
 #include <ros/time.h>
 
 #include <cstdint>
+#include <deque>
 #include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "ros/simulation/sensor_messages.h"
+#include "simulation/sensors/navigation_sensors.h"
 
 namespace grid_path_planner::nodes {
 
 class SensorPublisher {
  public:
-  explicit SensorPublisher(ros::NodeHandle& nh) : nh_(nh) {}
+  using StampOf = std::function<ros::Time(std::int64_t)>;
 
-  // Advertises the topics of the sensors that are enabled, and those only.
+  // As NavigationSensors.
+  SensorPublisher(ros::NodeHandle& nh, const simulation::NavigationSensorOptions& options,
+                  std::shared_ptr<const simulation::World> world,
+                  const std::vector<simulation::SensorFault>& faults);
+
+  // Throws as NavigationSensors does. Advertises the topics of the sensors that are enabled, and those only.
   void setOptions(const simulation::NavigationSensorOptions& options);
 
+  // What they read waits to be published.
+  void advance(const simulation::VehicleState& state, std::int64_t time_ns);
+  // The vehicle was put elsewhere, which is no motion.
+  void jump() { sensors_.jump(); }
   // `stamp_of` is the ROS time of a simulated one in nanoseconds; what is stamped 0 is left out.
-  void publish(const simulation::SensorReadings& readings, const SensorFrameNames& frames,
-               const std::string& map_frame,
-               const std::function<ros::Time(std::int64_t)>& stamp_of) const;
+  void publish(const SensorFrameNames& frames, const std::string& map_frame,
+               const StampOf& stamp_of);
+  // While ROS time stands at `stamp`: what is read waits for its next time, the newest of it; before its first it has none.
+  void dropOld(const ros::Time& stamp);
 
  private:
+  void publish(const simulation::SensorReadings& readings, const SensorFrameNames& frames,
+               const std::string& map_frame, const StampOf& stamp_of) const;
+
   ros::NodeHandle nh_;
-  simulation::NavigationSensorOptions options_;
-  ros::Publisher imu_;
-  ros::Publisher twist_;
-  ros::Publisher altitude_;
-  ros::Publisher pressure_;
-  ros::Publisher depth_;
-  ros::Publisher fix_;
+  simulation::NavigationSensors sensors_;
+  std::deque<simulation::SensorReadings> readings_;  // not yet published
+  ros::Publisher imu_, twist_, altitude_, pressure_, depth_, fix_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -1,10 +1,8 @@
 #include "ros/simulation/simulator_node.h"
 
 #include <ros/console.h>
-#include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
@@ -24,25 +22,17 @@ namespace grid_path_planner::nodes {
 using base::InputError;
 using base::sameOptions;
 using grid::OccupancyGrid;
-using simulation::NavigationSensors;
 using simulation::readSensorFaults;
 using simulation::readWorld;
-using simulation::SensorReadings;
+using simulation::SensorFault;
 using simulation::Vehicle;
 using simulation::VehicleState;
 using simulation::World;
 
 namespace {
 
-// Wall time that a late timer catches up on; beyond it simulated time goes slower instead of
-// jumping.
-constexpr double kLongestDelay = 0.05;  // s
-
 // Wall time after a command that simulated time waits for the next one before it ends.
 constexpr double kLongestWait = 0.2;  // s
-
-// Steps with readings that wait while ROS time stands: 10 s of them at the default time step.
-constexpr std::size_t kMostReadings = 1000;
 
 VehicleState initialState(const SimulatorOptions& o) {
   return {Eigen::Vector3d(o.initial.x, o.initial.y, o.initial.z), o.initial.yaw, {}};
@@ -87,22 +77,41 @@ SimulatorOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles&
   return options;
 }
 
+std::shared_ptr<const World> loadWorld(const SimulatorOptions& options, const NodeFiles& files) {
+  if (options.world.empty()) return nullptr;
+  const EndOfNode end;
+  return std::make_shared<const World>(
+      files.read("world", options.world, worldFiles(), [&](const std::string& file) {
+        return readWorld(file, {options.reading, end.token()});
+      }));
+}
+
+std::vector<SensorFault> loadFaults(const SimulatorOptions& options, const NodeFiles& files) {
+  if (options.sensor_faults.empty()) return {};
+  return files.read(
+      "sensor_faults", options.sensor_faults, sensorFaultFiles(),
+      [&](const std::string& file) { return readSensorFaults(file, options.reading); });
+}
+
 }  // namespace
 
 SimulatorNode::SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                              const NodeFiles& files)
     : nh_(nh),
-      files_(files),
       options_(loadOptions(private_nh, files)),
       vehicle_(std::make_unique<Vehicle>(options_.vehicle, initialState(options_))),
       odometry_(options_.odometry),
-      vehicle_publisher_(nh_),
-      contact_publisher_(nh_),
-      sensor_publisher_(nh_) {
+      world_(loadWorld(options_, files)),
+      faults_(loadFaults(options_, files)),
+      clock_(nh, options_),
+      vehicle_publisher_(nh),
+      contact_publisher_(nh),
+      sensor_publisher_(nh, options_.sensors, world_, faults_) {
   odometry_.reset(vehicle_->state());
-  if (options_.publish_clock) clock_publisher_ = nh_.advertise<rosgraph_msgs::Clock>("/clock", 10);
-  if (!options_.world.empty()) loadWorld();
-  startSensors();
+  if (world_) {
+    vehicle_->setWorld(world_);
+    contact_publisher_.start(*vehicle_);
+  }
   updateCamera(options_);
   startTimer();
   listen(private_nh);
@@ -119,29 +128,7 @@ void SimulatorNode::listen(ros::NodeHandle& private_nh) {
       private_nh, options_, [this](const SimulatorOptions& options) { use(options); });
 }
 
-SimulatorNode::~SimulatorNode() {
-  timer_.stop();
-}
-
-void SimulatorNode::loadWorld() {
-  const EndOfNode end;
-  const auto read = [&](const std::string& file) {
-    return readWorld(file, {options_.reading, end.token()});
-  };
-  world_ = std::make_shared<const World>(files_.read("world", options_.world, worldFiles(), read));
-  vehicle_->setWorld(world_);
-  contact_publisher_.start(*vehicle_);
-}
-
-void SimulatorNode::startSensors() {
-  const auto read = [&](const std::string& file) {
-    return readSensorFaults(file, options_.reading);
-  };
-  if (!options_.sensor_faults.empty())
-    faults_ = files_.read("sensor_faults", options_.sensor_faults, sensorFaultFiles(), read);
-  sensors_ = std::make_unique<NavigationSensors>(options_.sensors, world_, faults_);
-  sensor_publisher_.setOptions(options_.sensors);
-}
+SimulatorNode::~SimulatorNode() = default;
 
 void SimulatorNode::use(const SimulatorOptions& options) {
   checkSimulatorOptions(options);
@@ -154,7 +141,6 @@ void SimulatorNode::use(const SimulatorOptions& options) {
     throw InputError("sensor_faults cannot be changed while the simulator runs, it is '" +
                      options_.sensor_faults + "'");
   vehicle_->setOptions(options.vehicle);  // which the map may refuse, before anything has changed
-  sensors_->setOptions(options.sensors);
   sensor_publisher_.setOptions(options.sensors);
   updateCamera(options);
   odometry_.setOptions(options.odometry);
@@ -185,12 +171,11 @@ void SimulatorNode::updateImageCamera(const simulation::ImageCameraOptions& opti
 void SimulatorNode::resetVehicle(const SimulatorOptions& options) {
   vehicle_->reset(initialState(options));
   odometry_.reset(vehicle_->state());
-  sensors_->jump();
+  sensor_publisher_.jump();
 }
 
 void SimulatorNode::startTimer() {
-  last_tick_ = ros::SteadyTime::now();
-  last_tick_stamp_ = ros::Time::now();
+  clock_.start();
   timer_ = guardedTimer(nh_, 1.0 / options_.update_rate, [this] { onTimer(); });
 }
 
@@ -213,7 +198,7 @@ void SimulatorNode::onMap(const MapEvent& event) {
     const auto map = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
     tellTraits(event);
     vehicle_->setMap(map);
-    if (!std::exchange(has_map_, true)) warnOfStart(*map, vehicle_->state(), options_);
+    if (!contact_publisher_.hasStarted()) warnOfStart(*map, vehicle_->state(), options_);
     contact_publisher_.start(*vehicle_);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("projected_map refused, the one before stays: " << error.what());
@@ -221,29 +206,15 @@ void SimulatorNode::onMap(const MapEvent& event) {
 }
 
 void SimulatorNode::onTimer() {
-  const double time_step = options_.vehicle.time_step;
-  addElapsedTime();
+  clock_.addElapsed();
   const std::int64_t before = vehicle_->timeNs();
-  for (; pending_time_ >= time_step && !mustWaitForCamera() && !mustWaitForCommand();
-       pending_time_ -= time_step)
+  for (; clock_.isStepDue() && !mustWaitForCamera() && !mustWaitForCommand(); clock_.takeStep())
     step();
   // What was waited for is not made up for: it would be many steps without an odometry between them.
-  if (mustWaitForCommand()) pending_time_ = std::min(pending_time_, time_step);
+  if (mustWaitForCommand()) clock_.dropSteps();
   if (vehicle_->timeNs() == before) return;
   publishState();
   contact_publisher_.update(*vehicle_);
-}
-
-// Adds the time since the last call, at most what a late timer may catch up on.
-void SimulatorNode::addElapsedTime() {
-  const ros::SteadyTime tick = ros::SteadyTime::now();
-  const double most =
-      std::max(kLongestDelay, 2.0 / options_.update_rate) * options_.real_time_factor;
-  pending_time_ += (tick - last_tick_).toSec() * options_.real_time_factor;
-  pending_time_ =
-      std::min(pending_time_, most + options_.vehicle.time_step);  // at slow factors a step is more
-  last_tick_ = tick;
-  last_tick_stamp_ = ros::Time::now();
 }
 
 // An image is due, and the one before is not finished.
@@ -263,8 +234,7 @@ void SimulatorNode::step() {
   if (image_camera_ && image_camera_->wants(vehicle_->timeNs())) captureImage();
   vehicle_->step();
   odometry_.advance(vehicle_->state());
-  SensorReadings readings = sensors_->advance(vehicle_->state(), vehicle_->timeNs());
-  if (!readings.empty()) readings_.push_back(std::move(readings));
+  sensor_publisher_.advance(vehicle_->state(), vehicle_->timeNs());
 }
 
 // With tf of exactly its stamp, sent before it.
@@ -280,48 +250,18 @@ void SimulatorNode::captureImage() {
 }
 
 ros::Time SimulatorNode::now() const {
-  return options_.publish_clock ? stampOf(vehicle_->timeNs()) : ros::Time::now();
+  return clock_.now(vehicle_->timeNs());
 }
 
-// The ROS time of a simulated time that has passed. Without a clock of its own a step belongs to the
-// time that it was due at, and not to that of the tick that has run several steps; 0 before ROS time
-// has begun.
-ros::Time SimulatorNode::stampOf(std::int64_t time_ns) const {
-  ros::Duration passed;
-  passed.fromNSec(time_ns);
-  if (options_.publish_clock) return ros::Time(options_.start_time) + passed;
-  ros::Duration ago;
-  ago.fromNSec(vehicle_->timeNs() - time_ns);
-  ago += ros::Duration(pending_time_);
-  return last_tick_stamp_.toSec() > ago.toSec() ? last_tick_stamp_ - ago : ros::Time();
-}
-
-// After /clock has reached them: nothing measured is stamped ahead of time.
-void SimulatorNode::publishReadings() {
-  for (const SensorReadings& readings : readings_)
-    sensor_publisher_.publish(readings, options_.sensor_frames, options_.map_frame,
-                              [this](std::int64_t time_ns) { return stampOf(time_ns); });
-  readings_.clear();
-}
-
-// A clock of another node stands for most ticks, and the readings of these wait for its next time; those of
-// before its first time have none.
-void SimulatorNode::dropOldReadings() {
-  if (last_stamp_.isZero()) readings_.clear();
-  while (readings_.size() > kMostReadings) readings_.pop_front();
-}
-
+// Nothing measured is stamped ahead of time: /clock goes before it.
 void SimulatorNode::publishState() {
   const ros::Time stamp = now();
-  if (stamp == last_stamp_) return dropOldReadings();  // tf warns about repeated stamps
-  last_stamp_ = stamp;
-  if (options_.publish_clock) {
-    rosgraph_msgs::Clock clock;
-    clock.clock = stamp;
-    clock_publisher_.publish(clock);
-  }
+  if (!clock_.publish(stamp))
+    return sensor_publisher_.dropOld(stamp);  // tf warns about repeated stamps
   vehicle_publisher_.publish(vehicle_->state(), odometry_.measured(), stamp, frameNames(options_));
-  publishReadings();
+  sensor_publisher_.publish(
+      options_.sensor_frames, options_.map_frame,
+      [this](std::int64_t time_ns) { return clock_.stampOf(time_ns, vehicle_->timeNs()); });
 }
 
 }  // namespace grid_path_planner::nodes

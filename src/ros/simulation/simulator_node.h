@@ -28,11 +28,9 @@
 
 #include <geometry_msgs/Twist.h>
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 #include <ros/steady_timer.h>
 #include <ros/subscriber.h>
 
-#include <deque>
 #include <memory>
 #include <vector>
 
@@ -44,9 +42,9 @@
 #include "ros/simulation/depth_camera_publisher.h"
 #include "ros/simulation/image_camera_publisher.h"
 #include "ros/simulation/sensor_publisher.h"
+#include "ros/simulation/simulator_clock.h"
 #include "ros/simulation/simulator_options.h"
 #include "ros/simulation/vehicle_publisher.h"
-#include "simulation/sensors/navigation_sensors.h"
 
 namespace grid_path_planner {
 class SimulatorConfig;
@@ -68,10 +66,8 @@ class SimulatorNode {
   ~SimulatorNode();
 
  private:
-  void loadWorld();
   void listen(ros::NodeHandle& private_nh);
   void use(const SimulatorOptions& options);
-  void startSensors();
   void updateCamera(const SimulatorOptions& options);
   void updateImageCamera(const simulation::ImageCameraOptions& options);
   void resetVehicle(const SimulatorOptions& options);
@@ -80,43 +76,30 @@ class SimulatorNode {
   void onCommand(const geometry_msgs::Twist& message);
   void onMap(const MapEvent& event);
   void onTimer();
-  void addElapsedTime();
   void step();
   bool mustWaitForCamera() const;
   bool mustWaitForCommand() const;
   void captureDepthImage();
   void captureImage();
   void publishState();
-  void publishReadings();
-  void dropOldReadings();
   ros::Time now() const;
-  ros::Time stampOf(std::int64_t time_ns) const;
 
   ros::NodeHandle nh_;
-  NodeFiles files_;
   SimulatorOptions options_;
   std::unique_ptr<simulation::Vehicle> vehicle_;
   simulation::DeadReckoning odometry_;
   std::shared_ptr<const simulation::World> world_;  // none: only the map's obstacles
   std::vector<simulation::SensorFault> faults_;     // of sensors and image camera
-  double pending_time_ = 0.0;                       // s of simulated time that are due
-  ros::SteadyTime last_tick_;
-  ros::Time last_tick_stamp_;  // ROS time then
+  SimulatorClock clock_;
   ros::SteadyTime commanded_at_;
-  ros::Time last_stamp_;
 
   VehiclePublisher vehicle_publisher_;
   ContactPublisher contact_publisher_;
   std::unique_ptr<DepthCameraPublisher> camera_;        // with a world
   std::unique_ptr<ImageCameraPublisher> image_camera_;  // where enabled
   SensorPublisher sensor_publisher_;
-  std::unique_ptr<simulation::NavigationSensors> sensors_;
-  std::deque<simulation::SensorReadings> readings_;  // not yet published
-  ros::Publisher clock_publisher_;
-  ros::Subscriber command_subscriber_;
-  ros::Subscriber map_subscriber_;
-  bool has_map_ = false;
-  ros::SteadyTimer timer_;
+  ros::Subscriber command_subscriber_, map_subscriber_;
+  ros::SteadyTimer timer_;  // destroyed before what it calls
   std::unique_ptr<Reconfigurable<SimulatorConfig, SimulatorOptions>> reconfigurable_;
 };
 
