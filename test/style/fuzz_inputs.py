@@ -106,9 +106,7 @@ INPUTS = {
         "SetPose": "sensor_messages", "Twist": "sensor_messages", "TwistWithCovarianceStamped": "sensor_messages",
         "VehicleLocalizerOptions": "vehicle_config_message", "sensor_msgs::FluidPressure": "sensor_messages",
         "sensor_msgs::Imu": "sensor_messages", "std_srvs::Trigger": NO_REQUEST},
-    "ros/localization/vehicle_localizer_node.h": {
-        "Message": Part(("sensor_messages", "each by its function")),
-        "geometry_msgs::PoseWithCovarianceStamped": "sensor_messages"},
+    "ros/localization/vehicle_localizer_node.h": {"Message": Part(("sensor_messages", "each by its function"))},
     "ros/mapping/mapping_services.cpp": {"ClearBoxService": Part(("clear_box_request", "ClearBox")),
                                          "SaveFile": Part(("file_name", "its name of a file")),
                                          "std_srvs::Empty": NO_REQUEST},

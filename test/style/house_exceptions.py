@@ -38,10 +38,8 @@ LARGE_CLASSES = {  # below src/ros/: members
     "FlightCommander": 21,
     "GoToPoseNode": 32,
     "LocalPlannerNode": 31,
-    "MarkerLocalizerNode": 22,
     "NavigatePathNode": 31,
     "PanelWidgets": 20,
-    "VehicleLocalizerNode": 24,
 }
 
 LONG_ESSAYS = {  # headers: lines of their opening comment

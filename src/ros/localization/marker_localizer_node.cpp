@@ -82,12 +82,10 @@ double residualOf(const vision::MarkerFix& fix) {
 
 MarkerLocalizerNode::MarkerLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                                          const NodeFiles& files)
-    : nh_(nh),
-      options_(loadMarkerLocalizerOptions(private_nh, files)),
+    : options_(loadMarkerLocalizerOptions(private_nh, files)),
       layout_(loadLayout(options_, files)),
       transforms_(nh),
-      time_(NodeTime::of(nh)),
-      publisher_(nh_),
+      publisher_(nh),
       sightings_(options_.learning),
       diagnostics_(nh, private_nh, private_nh.getNamespace()),
       looker_([](const std::string& error) { tellGivenUp("An image", error); }) {
@@ -95,9 +93,9 @@ MarkerLocalizerNode::MarkerLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& p
   reconfigurable_ = std::make_unique<Reconfigurable<MarkerLocalizerConfig, MarkerLocalizerOptions>>(
       private_nh, options_, [this](const MarkerLocalizerOptions& options) { use(options); });
   diagnostics_.add("markers", this, &MarkerLocalizerNode::diagnose);
-  diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
-  on_jump_back_ = time_.onJumpBack([this](double seconds) { timeWentBack(seconds); });
-  listen(private_nh);
+  diagnostics_timer_ = diagnosticsTimer(nh, diagnostics_);
+  on_jump_back_ = NodeTime::of(nh).onJumpBack([this](double seconds) { timeWentBack(seconds); });
+  listen(nh, private_nh);
 }
 
 MarkerLocalizerNode::~MarkerLocalizerNode() {
@@ -107,12 +105,12 @@ MarkerLocalizerNode::~MarkerLocalizerNode() {
   learn_panel_.shutdown();
 }
 
-void MarkerLocalizerNode::listen(ros::NodeHandle& private_nh) {
+void MarkerLocalizerNode::listen(ros::NodeHandle& nh, ros::NodeHandle& private_nh) {
   using sensor_msgs::CameraInfo, sensor_msgs::Image;
   infos_ = std::make_unique<Input<CameraInfo>>(
-      nh_, "camera/camera_info", rulesOf("marker_localizer", "camera/camera_info"), transforms_,
+      nh, "camera/camera_info", rulesOf("marker_localizer", "camera/camera_info"), transforms_,
       [this](const Input<CameraInfo>::Arrival& info) { onInfo(*info.message); });
-  images_ = std::make_unique<Input<Image>>(nh_, "camera/image_raw", imageRules(), transforms_,
+  images_ = std::make_unique<Input<Image>>(nh, "camera/image_raw", imageRules(), transforms_,
                                            Input<Image>::OnReady{[this] { lookAtNext(); }});
   using std_srvs::Trigger;
   learn_panel_ =
@@ -161,20 +159,18 @@ void MarkerLocalizerNode::timeWentBack(double seconds) {
 
 void MarkerLocalizerNode::onInfo(const sensor_msgs::CameraInfo& message) {
   checkNetworkText("its frame", message.header.frame_id);
-  calibration_ = calibrationOf(message);
-  calibration_frame_ = frameName(message.header.frame_id);
+  camera_ = Camera{calibrationOf(message), frameName(message.header.frame_id)};
 }
 
 // With what is in force now.
 void MarkerLocalizerNode::lookAtNext() {
   looker_.post(
-      [this, calibration = calibration_, frame = calibration_frame_, options = options_,
-       panel = panel_](const StopSource& stop) {
+      [this, camera = camera_, options = options_, panel = panel_](const StopSource& stop) {
         try {
           images_->useNext([&](const Input<sensor_msgs::Image>::Arrival& image) {
-            if (!calibration) throw InputError("no camera_info that can be used has come yet");
-            checkSameCamera(image.message->header.frame_id, frame);
-            lookAt({image.message, *calibration, options, panel}, stop.token());
+            if (!camera) throw InputError("no camera_info that can be used has come yet");
+            checkSameCamera(image.message->header.frame_id, camera->frame);
+            lookAt({image.message, camera->calibration, options, panel}, stop.token());
           });
         } catch (const base::Stopped&) {  // the node ends
         }
@@ -233,7 +229,7 @@ void MarkerLocalizerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& 
   const vision::MarkerFix fix = tally_.newest ? tally_.newest->fix : vision::MarkerFix();
   const double age = secondsBetween(tally_.newest_stamp, ros::Time::now());
   const std::uint64_t taken = images_->counts().used;
-  const auto before = std::exchange(diagnosed_images_, taken);
+  const auto before = std::exchange(tally_.diagnosed, taken);
   summarize(status);
   status.add("rate (Hz)", static_cast<double>(taken - before) / kDiagnosisPeriod);
   status.add("age (s)", tally_.newest ? std::to_string(age) : "none");

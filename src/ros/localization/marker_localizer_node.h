@@ -51,7 +51,7 @@ class MarkerLocalizerNode {
   ~MarkerLocalizerNode();
 
  private:
-  void listen(ros::NodeHandle& private_nh);
+  void listen(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
   InputRules imageRules() const;
   void use(MarkerLocalizerOptions options);
   void usePanel(const std::optional<vision::PanelPose>& panel);
@@ -63,23 +63,25 @@ class MarkerLocalizerNode {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
+  // As its camera_info has it.
+  struct Camera {
+    vision::CameraCalibration calibration;
+    std::string frame;  // may be empty
+  };
   // Of the images so far.
   struct Tally {
     std::uint64_t poses = 0;
+    std::uint64_t diagnosed = 0;         // those that were used when the diagnostics were last made
     std::optional<MarkerAnswer> newest;  // without pixels
     ros::Time newest_stamp;
   };
 
-  ros::NodeHandle nh_;
   MarkerLocalizerOptions options_;
   const vision::MarkerLayout layout_;
   FrameTransforms transforms_;
-  NodeTime& time_;
   MarkerPublisher publisher_;
-  std::optional<vision::CameraCalibration> calibration_;
-  std::string calibration_frame_;  // that its message names; may be empty
+  std::optional<Camera> camera_;
   std::optional<vision::PanelPose> panel_;
-  std::uint64_t diagnosed_images_ = 0;  // when the diagnostics were last made
 
   std::mutex mutex_;  // of the next two
   Tally tally_;

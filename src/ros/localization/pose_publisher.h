@@ -39,9 +39,9 @@ struct PublishedPoses {
 
 class PosePublisher {
  public:
+  // `options`, as they are at any time, outlive this.
   PosePublisher(ros::NodeHandle& nh, const VehicleLocalizerOptions& options);
 
-  void use(const VehicleLocalizerOptions& options) { options_ = options; }
   // ROS time begins anew.
   void reset() { last_ = ros::Time(); }
 
@@ -61,7 +61,7 @@ class PosePublisher {
   void sendTransforms(const PublishedPoses& poses, const localization::Mounting& base,
                       const ros::Time& stamp, TransformRivals& rivals);
 
-  VehicleLocalizerOptions options_;
+  const VehicleLocalizerOptions& options_;
   ros::Time last_;
   ros::Publisher filtered_, local_;
   tf2_ros::TransformBroadcaster broadcaster_;

@@ -14,6 +14,7 @@ namespace grid_path_planner::nodes {
 namespace {
 
 constexpr std::size_t kRemembered = 1000;
+constexpr double kListens = 0.5;  // s of the wall clock, before the first transform
 
 }  // namespace
 
@@ -24,6 +25,10 @@ void TransformRivals::sent(const std::string& child, const ros::Time& stamp) {
   const std::lock_guard<std::mutex> lock(mutex_);
   sent_.push_back({child, stamp});
   if (sent_.size() > kRemembered) sent_.pop_front();
+}
+
+bool TransformRivals::isKnown() const {
+  return (ros::SteadyTime::now() - since_).toSec() >= kListens;
 }
 
 std::string TransformRivals::rival() const {

@@ -30,6 +30,8 @@ class TransformRivals {
   // `node`: who published the message.
   void hear(const tf2_msgs::TFMessage& message, const std::string& node, bool is_static);
   void sent(const std::string& child, const ros::Time& stamp);
+  // Whether tf was listened to for so long that one that is there was heard.
+  bool isKnown() const;
   // A sentence that names the first that was heard since reset(), or a static one; empty: none.
   std::string rival() const;
   void reset();
@@ -40,6 +42,7 @@ class TransformRivals {
                       bool is_static);
 
   const std::vector<std::string> children_;
+  const ros::SteadyTime since_ = ros::SteadyTime::now();
   mutable std::mutex mutex_;
   struct Sent {
     std::string child;

@@ -30,8 +30,6 @@ using localization::Verdict;
 
 namespace {
 
-constexpr double kListens = 0.5;  // s of the wall clock, before the first transform
-
 void nameFrames(VehicleLocalizerOptions& options) {
   for (std::string* frame : {&options.map_frame, &options.odom_frame, &options.base_frame,
                              &options.usbl_frame, &options.depth_frame})
@@ -89,44 +87,45 @@ std::optional<PublishedEstimate> published(const localization::VehicleLocalizer&
   return PublishedEstimate{snapshot->estimate, localizer.rateOf(*snapshot)};
 }
 
+// Why it was not used; empty: it was.
+std::string given(Input<PoseWithCovarianceStamped>& poses,
+                  const PoseWithCovarianceStamped& message) {
+  const auto used = poses.counts().used;
+  if (const auto why = poses.give(boost::make_shared<PoseWithCovarianceStamped>(message)))
+    return *why;
+  return poses.counts().used > used ? "" : "it is ahead of ROS time, and waits for it";
+}
+
 }  // namespace
 
 VehicleLocalizerNode::VehicleLocalizerNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
                                            const NodeFiles& files)
-    : nh_(nh),
-      options_(loadVehicleLocalizerOptions(private_nh)),
+    : options_(loadVehicleLocalizerOptions(private_nh)),
       rivals_(childrenOf(options_)),
       transforms_(nh, [this](const tf2_msgs::TFMessage& message, const std::string& node,
                              bool is_static) { rivals_.hear(message, node, is_static); }),
-      time_(NodeTime::of(nh)),
       localizer_(options_.localizer),
       kept_(files.saveFolder().path(), private_nh.getNamespace()),
       messages_([this](const std::string& target,
                        const std::string& source) { return placeOnVehicle(target, source); },
                 options_),
-      publisher_(nh_, options_),
-      fixes_(nh_),
-      status_publisher_(nh_.advertise<std_msgs::String>("localization_status", 1, true)),
-      heard_since_(ros::SteadyTime::now()),
+      publisher_(nh, options_),
+      fixes_(nh),
+      status_publisher_(nh.advertise<std_msgs::String>("localization_status", 1, true)),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   if (const auto heading = kept_.begin()) localizer_.beginWith(*heading);
-  announce(localizer_.report({}));
-  subscribe();
-  offerServices(private_nh);
+  announce(localizer_.report({}), false);
+  subscribe(nh);
+  offerServices(nh, private_nh);
   reconfigurable_ =
       std::make_unique<Reconfigurable<VehicleLocalizerConfig, VehicleLocalizerOptions>>(
           private_nh, options_, [this](const VehicleLocalizerOptions& options) { use(options); });
-  on_jump_back_ = time_.onJumpBack([this](double seconds) { timeWentBack(seconds); });
-  publish_timer_ = guardedTimer(nh_, 1.0 / options_.publish_rate, [this] { onTimer(); });
-  startDiagnostics();
+  on_jump_back_ = NodeTime::of(nh).onJumpBack([this](double seconds) { timeWentBack(seconds); });
+  publish_timer_ = guardedTimer(nh, 1.0 / options_.publish_rate, [this] { onTimer(); });
+  startDiagnostics(nh);
 }
 
-VehicleLocalizerNode::~VehicleLocalizerNode() {
-  publish_timer_.stop();
-  diagnostics_timer_.stop();
-  for (auto& [source, input] : inputs_) input->shutdown();
-  for (ros::ServiceServer& service : services_) service.shutdown();
-}
+VehicleLocalizerNode::~VehicleLocalizerNode() = default;
 
 // Not through the map or the odometry, which are this node's own estimate.
 Eigen::Isometry3d VehicleLocalizerNode::placeOnVehicle(const std::string& target,
@@ -137,47 +136,47 @@ Eigen::Isometry3d VehicleLocalizerNode::placeOnVehicle(const std::string& target
 }
 
 template <class Message, class Use>
-Input<Message>& VehicleLocalizerNode::listen(Source source, const Use& use) {
+Input<Message>& VehicleLocalizerNode::listen(Source source, ros::NodeHandle& nh, const Use& use) {
   auto input = std::make_unique<Input<Message>>(
-      nh_, topicOf(source, options_), rulesOf(source, options_), transforms_,
+      nh, topicOf(source, options_), rulesOf(source, options_), transforms_,
       [use](const typename Input<Message>::Arrival& arrival) { use(*arrival.message); });
   Input<Message>& listening = *input;
   inputs_[source] = std::move(input);
   return listening;
 }
 
-void VehicleLocalizerNode::subscribe() {
+void VehicleLocalizerNode::subscribe(ros::NodeHandle& nh) {
   using geometry_msgs::Twist, geometry_msgs::TwistWithCovarianceStamped;
-  listen<sensor_msgs::Imu>(Source::IMU,
+  listen<sensor_msgs::Imu>(Source::IMU, nh,
                            [this](const sensor_msgs::Imu& message) { onImu(message); });
   listen<TwistWithCovarianceStamped>(
-      Source::DVL,
+      Source::DVL, nh,
       [this](const TwistWithCovarianceStamped& message) { take(messages_.dvl(message)); });
-  listen<PoseWithCovarianceStamped>(Source::USBL, [this](const PoseWithCovarianceStamped& message) {
-    take(messages_.usbl(message));
-  });
   listen<PoseWithCovarianceStamped>(
-      Source::MARKER,
+      Source::USBL, nh,
+      [this](const PoseWithCovarianceStamped& message) { take(messages_.usbl(message)); });
+  listen<PoseWithCovarianceStamped>(
+      Source::MARKER, nh,
       [this](const PoseWithCovarianceStamped& message) { take(messages_.marker(message)); });
   if (options_.use_pressure)
     listen<sensor_msgs::FluidPressure>(
-        Source::DEPTH,
+        Source::DEPTH, nh,
         [this](const sensor_msgs::FluidPressure& message) { take(messages_.pressure(message)); });
   else
     listen<PoseWithCovarianceStamped>(
-        Source::DEPTH,
+        Source::DEPTH, nh,
         [this](const PoseWithCovarianceStamped& message) { take(messages_.depth(message)); });
-  listen<Twist>(Source::COMMAND, [this](const Twist& message) { onCommand(message); });
-  given_poses_ = &listen<PoseWithCovarianceStamped>(
-      Source::SET_POSE, [this](const PoseWithCovarianceStamped& message) {
-        take(messages_.setPose(message, NodeTime::now()));
-      });
+  listen<Twist>(Source::COMMAND, nh, [this](const Twist& message) { onCommand(message); });
 }
 
-void VehicleLocalizerNode::offerServices(ros::NodeHandle& private_nh) {
+void VehicleLocalizerNode::offerServices(ros::NodeHandle& nh, ros::NodeHandle& private_nh) {
+  auto& poses = listen<PoseWithCovarianceStamped>(
+      Source::SET_POSE, nh, [this](const PoseWithCovarianceStamped& message) {
+        take(messages_.setPose(message, NodeTime::now()));
+      });
   services_.push_back(
-      advertiseService<SetPose>(private_nh, "set_pose", [this](auto& request, auto& response) {
-        response.message = setPose(request.pose);
+      advertiseService<SetPose>(private_nh, "set_pose", [&poses](auto& request, auto& response) {
+        response.message = given(poses, request.pose);
         response.success = response.message.empty();
         if (response.success) response.message = "set";
         return true;
@@ -192,7 +191,7 @@ void VehicleLocalizerNode::offerServices(ros::NodeHandle& private_nh) {
       }));
 }
 
-void VehicleLocalizerNode::startDiagnostics() {
+void VehicleLocalizerNode::startDiagnostics(ros::NodeHandle& nh) {
   diagnostics_.add("localization", this, &VehicleLocalizerNode::diagnose);
   for (const Source source : {Source::IMU, Source::DVL, Source::DEPTH, Source::USBL, Source::MARKER,
                               Source::COMMAND, Source::SET_POSE, Source::HEADING})
@@ -200,7 +199,7 @@ void VehicleLocalizerNode::startDiagnostics() {
                      [this, source](diagnostic_updater::DiagnosticStatusWrapper& status) {
                        diagnoseInput(source, status);
                      });
-  diagnostics_timer_ = diagnosticsTimer(nh_, diagnostics_);
+  diagnostics_timer_ = diagnosticsTimer(nh, diagnostics_);
 }
 
 void VehicleLocalizerNode::use(VehicleLocalizerOptions options) {
@@ -216,7 +215,6 @@ void VehicleLocalizerNode::use(VehicleLocalizerOptions options) {
         "publish_odom_to_base and publish_rate cannot be changed while the node runs");
   localizer_.use(options.localizer);
   messages_.use(options);
-  publisher_.use(options);
   options_ = options;
   for (auto& [source, input] : inputs_) input->setRules(rulesOf(source, options_));
 }
@@ -242,8 +240,6 @@ void VehicleLocalizerNode::beginAnew(const std::optional<localization::KnownHead
   publisher_.reset();
   fixes_.clear();
   report_ = {};
-  withheld_.clear();
-  last_command_ = {};
 }
 
 // Throws std::runtime_error for one that is not used.
@@ -268,21 +264,13 @@ void VehicleLocalizerNode::onImu(const sensor_msgs::Imu& message) {
 // Several within one step of simulated time are one command.
 void VehicleLocalizerNode::onCommand(const geometry_msgs::Twist& message) {
   const ros::Time now = ros::Time::now();
-  if (now == std::exchange(last_command_, now)) return;
+  if (now == inputs_.at(Source::COMMAND)->newest()) return;
   take(messages_.command(message, now));
-}
-
-// Why it was not used; empty: it was.
-std::string VehicleLocalizerNode::setPose(const PoseWithCovarianceStamped& message) {
-  const auto used = given_poses_->counts().used;
-  if (const auto why = given_poses_->give(boost::make_shared<PoseWithCovarianceStamped>(message)))
-    return *why;
-  return given_poses_->counts().used > used ? "" : "it is ahead of ROS time, and waits for it";
 }
 
 // While no IMU does.
 void VehicleLocalizerNode::onTimer() {
-  if (!time_.isThere()) return;
+  if (!NodeTime::isThere()) return;
   const ros::Time now = ros::Time::now();
   const double late = 3.0 / options_.publish_rate;
   if (publisher_.isDue(now - ros::Duration(std::min(late, now.toSec())))) publish(now);
@@ -296,14 +284,14 @@ void VehicleLocalizerNode::publish(const ros::Time& stamp) {
   }
   report_ = localizer_.report(time);
   keepHeading(time);
-  withheld_ = publishPoses(stamp);
-  if (!withheld_.empty()) {
+  const std::string withheld = publishPoses(stamp);
+  if (!withheld.empty()) {
     static LogThrottle seldom(5.0);
-    ROS_WARN_STREAM_COND(seldom.isDue(), withheld_);
-    report_.sentence = withheld_ + "; " + report_.sentence;
+    ROS_WARN_STREAM_COND(seldom.isDue(), withheld);
+    report_.sentence = withheld + "; " + report_.sentence;
     if (report_.status == LocalizationStatus::OK) report_.status = LocalizationStatus::DEGRADED;
   }
-  announce(report_);
+  announce(report_, !withheld.empty());
 }
 
 // What is not published, and why; empty: all is.
@@ -313,8 +301,7 @@ std::string VehicleLocalizerNode::publishPoses(const ros::Time& stamp) {
       published(localizer_, localizer_.mapAt(time)),
       published(localizer_, localizer_.odometryAt(time)),
       report_.status == LocalizationStatus::OK || report_.status == LocalizationStatus::DEGRADED};
-  if (!poses.odometry && !poses.map) return {};
-  if ((ros::SteadyTime::now() - heard_since_).toSec() < kListens) return {};
+  if ((!poses.odometry && !poses.map) || !rivals_.isKnown()) return {};
   try {
     const localization::Mounting base = messages_.base();
     const bool by_other = options_.publish_map_to_odom && !options_.publish_odom_to_base &&
@@ -339,9 +326,9 @@ void VehicleLocalizerNode::keepHeading(localization::Stamp time) {
 }
 
 // In the log when the status changes, another node publishes what is ours, or something is withheld.
-void VehicleLocalizerNode::announce(const LocalizationReport& report) {
+void VehicleLocalizerNode::announce(const LocalizationReport& report, bool is_withheld) {
   const std::string rival = rivals_.rival();
-  const std::string told = nameOf(report.status) + rival + (withheld_.empty() ? "" : ", withheld");
+  const std::string told = nameOf(report.status) + rival + (is_withheld ? ", withheld" : "");
   if (told == std::exchange(told_, told)) return;
   std_msgs::String message;
   message.data = std::string(nameOf(report.status)) + ": " + report.sentence;

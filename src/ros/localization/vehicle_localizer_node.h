@@ -71,31 +71,28 @@ class VehicleLocalizerNode {
  private:
   Eigen::Isometry3d placeOnVehicle(const std::string& target, const std::string& source) const;
   template <class Message, class Use>
-  Input<Message>& listen(localization::Source source, const Use& use);
-  void subscribe();
-  void offerServices(ros::NodeHandle& private_nh);
-  void startDiagnostics();
+  Input<Message>& listen(localization::Source source, ros::NodeHandle& nh, const Use& use);
+  void subscribe(ros::NodeHandle& nh);
+  void offerServices(ros::NodeHandle& nh, ros::NodeHandle& private_nh);
+  void startDiagnostics(ros::NodeHandle& nh);
   void use(VehicleLocalizerOptions options);
   void timeWentBack(double seconds);
   void beginAnew(const std::optional<localization::KnownHeading>& heading = {});
   void take(const localization::Measurement& measurement);
   void onImu(const sensor_msgs::Imu& message);
   void onCommand(const geometry_msgs::Twist& message);
-  std::string setPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   void onTimer();
   void publish(const ros::Time& stamp);
   std::string publishPoses(const ros::Time& stamp);
   void keepHeading(localization::Stamp time);
-  void announce(const localization::LocalizationReport& report);
+  void announce(const localization::LocalizationReport& report, bool is_withheld);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseInput(localization::Source source,
                      diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  ros::NodeHandle nh_;
   VehicleLocalizerOptions options_;
   TransformRivals rivals_;
   FrameTransforms transforms_;  // tells the rivals
-  NodeTime& time_;
   localization::VehicleLocalizer localizer_;
   KeptHeading kept_;
   SensorMessages messages_;
@@ -103,13 +100,10 @@ class VehicleLocalizerNode {
   FixMarkers fixes_;
   ros::Publisher status_publisher_;
   localization::LocalizationReport report_;
-  std::string withheld_;         // what is not published, and why; empty: all is
-  std::string told_;             // of status, rival and what is withheld
-  ros::SteadyTime heard_since_;  // when tf was first listened to
-  ros::Time last_command_;
+  std::string told_;  // of status, rival and whether something is withheld
 
+  // What calls is destroyed before what it calls.
   std::map<localization::Source, std::unique_ptr<InputBase>> inputs_;
-  Input<geometry_msgs::PoseWithCovarianceStamped>* given_poses_ = nullptr;  // one of them
   std::vector<ros::ServiceServer> services_;
   diagnostic_updater::Updater diagnostics_;
   ros::SteadyTimer publish_timer_, diagnostics_timer_;
