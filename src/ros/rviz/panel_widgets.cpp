@@ -66,6 +66,29 @@ constexpr char kFirstButton[] =
 
 }  // namespace
 
+PanelReport::PanelReport()
+    : sentence_(wrappedLabel()),
+      figures_(wrappedLabel()),
+      driving_(wrappedLabel()),
+      progress_(new QProgressBar) {
+  progress_->setRange(0, 1000);
+  progress_->setTextVisible(false);
+  progress_->setMaximumHeight(10);
+}
+
+void PanelReport::addTo(QVBoxLayout* column) const {
+  for (QWidget* widget : std::initializer_list<QWidget*>{sentence_, figures_, driving_, progress_})
+    column->addWidget(widget);
+}
+
+void PanelReport::show(const PanelModel& model) {
+  setText(sentence_, model.sentence());
+  setStyle(sentence_, styleOf(model.tone()));
+  setText(figures_, model.figures());
+  setText(driving_, model.driveText());
+  progress_->setValue(static_cast<int>(1000.0 * model.progress().share().value_or(0.0)));
+}
+
 PanelWidgets::PanelWidgets(QWidget* parent, ParameterControls* parameters)
     : name_space(new QLineEdit),
       nodes(wrappedLabel()),
@@ -83,10 +106,6 @@ PanelWidgets::PanelWidgets(QWidget* parent, ParameterControls* parameters)
       cancel(buttonOf("Cancel", "Ends planning and driving: the vehicle stops")),
       save(buttonOf("Save ...", "Writes the path that is shown as a waypoint file")),
       load(buttonOf("Load ...", "Reads a waypoint file, to be driven")),
-      sentence(wrappedLabel()),
-      figures(wrappedLabel()),
-      driving(wrappedLabel()),
-      progress(new QProgressBar),
       comparison(new ComparisonTable) {
   auto* column = new QVBoxLayout(parent);
   column->setSpacing(4);
@@ -94,9 +113,6 @@ PanelWidgets::PanelWidgets(QWidget* parent, ParameterControls* parameters)
   name_space->setObjectName("Namespace");
   name_space->setPlaceholderText("namespace of the nodes");
   name_space->setToolTip("Of path_planner and navigate_path, such as /a; empty: that of rviz");
-  progress->setRange(0, 1000);
-  progress->setTextVisible(false);
-  progress->setMaximumHeight(10);
   comparison->setMinimumHeight(120);
   addRow(column, {name_space, nodes});
   column->addWidget(parameters);
@@ -107,8 +123,7 @@ PanelWidgets::PanelWidgets(QWidget* parent, ParameterControls* parameters)
   addRow(column, {plan, compare, explain});
   addRow(column, {drive, pause, resume, cancel});
   addRow(column, {save, load});
-  for (QWidget* widget : std::initializer_list<QWidget*>{sentence, figures, driving, progress})
-    column->addWidget(widget);
+  report.addTo(column);
   column->addWidget(comparison, 1);
 }
 
@@ -127,11 +142,7 @@ void PanelWidgets::show(const PanelModel& model) {
       {remove_via, !model.points().via().empty()}};
   for (const auto& [button, enabled] : buttons) button->setEnabled(enabled);
   setText(nodes, model.nodesText());
-  setText(sentence, model.sentence());
-  setStyle(sentence, styleOf(model.tone()));
-  setText(figures, model.figures());
-  setText(driving, model.driveText());
-  progress->setValue(static_cast<int>(1000.0 * model.progress().share().value_or(0.0)));
+  report.show(model);
 }
 
 }  // namespace grid_path_planner::nodes

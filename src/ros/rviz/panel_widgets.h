@@ -14,6 +14,18 @@
 
 namespace grid_path_planner::nodes {
 
+// What the model says of the plan and the drive.
+class PanelReport {
+ public:
+  PanelReport();
+  void addTo(QVBoxLayout* column) const;
+  void show(const panel::PanelModel& model);
+
+ private:
+  QLabel *sentence_, *figures_, *driving_;
+  QProgressBar* progress_;
+};
+
 struct PanelWidgets {
   // All belong to `parent`.
   PanelWidgets(QWidget* parent, ParameterControls* parameters);
@@ -28,8 +40,7 @@ struct PanelWidgets {
   QPushButton *plan, *compare, *explain;
   QPushButton *drive, *pause, *resume, *cancel;
   QPushButton *save, *load;
-  QLabel *sentence, *figures, *driving;
-  QProgressBar* progress;
+  PanelReport report;
   ComparisonTable* comparison;
 };
 
