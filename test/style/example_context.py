@@ -53,7 +53,7 @@ CONTEXT = {
         extern ros::NodeHandle nh; extern const PlanPathGoal goal; extern double timeout;
         void on_result(const PlanPathResult&); void on_feedback(const PlanPathFeedback&);
         void on_lost(const std::string&);""",
-    "seen_goals.h": "extern const actionlib_msgs::GoalStatusArray status; extern const std::string id; void waitForResult();",
+    "goals_of_status.h": "extern const actionlib_msgs::GoalStatusArray status; extern const std::string id; void waitForResult();",
     "velocity_message.h": "extern const nav_msgs::Odometry odometry;",
     "go_to_messages.h": "#include <move_base_msgs/MoveBaseGoal.h>\nextern const move_base_msgs::MoveBaseGoal goal;"
                         "extern following::Navigator navigator; extern double now; extern const PlanPathResult plan;"
@@ -65,7 +65,7 @@ CONTEXT = {
     "request_messages.h": "extern const PlanPathGoal goal; extern const ComparePlans::Request comparison; void ask(const PlanningRequest&);",
     "request_poses.h": "extern const PlanningRequest request; extern const PathPlannerNodeOptions options; extern const FrameLookup transforms;",
     "json_numbers.h": "struct Run { int seed; }; extern Run run; extern const nlohmann::json object;",
-    "map_watch.h": "extern ros::NodeHandle nh;",
+    "map_monitor.h": "extern ros::NodeHandle nh;",
     "publisher_watch.h": "extern std::string name_of_publisher; void heard(const std::string& node);", "direct_publisher.h": "#include <geometry_msgs/Twist.h>\nextern ros::NodeHandle nh; extern geometry_msgs::Twist twist;",
     "map_autosave.h": "extern std::string folder; extern ros::NodeHandle private_nh; extern ProjectedMapOptions options;"
                       "extern ros::Time newest_cloud;",
@@ -89,7 +89,7 @@ CONTEXT = {
     "child_process.h": "extern std::string file; extern ReadLimits limits;",
     "drawn_shapes.h": "extern OccupancyGrid map; extern double resolution; extern std::string file;extern ReadLimits limits;",
     "action_stamps.h": "#include <actionlib_msgs/GoalID.h>\nextern actionlib_msgs::GoalID goal_id;",
-    "end_of_node.h": """#include "grid_path_planner/simulation/world.h"
+    "shutdown_flag.h": """#include "grid_path_planner/simulation/world.h"
         extern std::string file; extern ReadOptions read_options;""",
     "bounded_subscription.h": """#include <map_msgs/OccupancyGridUpdate.h>
         extern ros::NodeHandle nh; extern ros::Subscriber updates;""",
@@ -156,7 +156,7 @@ CONTEXT = {
         extern localization::VehicleLocalizer localizer;""",
     "transform_rivals.h": "extern ros::Time stamp; extern std::string child; void beSilent(const std::string&);"
                           "extern const tf2_msgs::TFMessage& message; extern std::string node; extern bool is_static;",
-    "end_without_master.h": "bool isAskedToEnd();",
+    "shutdown_timeout.h": "bool isAskedToEnd();",
     "latched_message.h": """#include <nav_msgs/OccupancyGrid.h>
         extern ros::Publisher maps; extern nav_msgs::OccupancyGrid message;""",
     "input_rules.h": "struct Options { std::string map_frame; double tf_timeout; }; extern Options options;",
@@ -202,7 +202,7 @@ CONTEXT = {
     "panel_learning.h": """extern PanelLearningOptions options; extern double seconds; extern Eigen::Isometry3d map_from_base;
         extern Eigen::Isometry3d base_from_camera; extern PoseEstimate pose;""",
     "seen_map.h": """extern SeenMap map; extern avoidance::Frame frame; extern Eigen::Vector3d position, goal;""",
-    "flight_hold.h": "extern double master_timeout;", "manager_end.h": "void stopVehicle();",
+    "flight_hold.h": "extern double master_timeout;", "manager_shutdown.h": "void stopVehicle();",
     "flight_job.h": "extern std::function<void(std::size_t)> progress;", "flight_commander.h": "extern ros::NodeHandle nh;",
     "flight_log.h": """extern std::string file; extern PilotOptions options; extern std::uint64_t limit;
         extern std::vector<Eigen::Vector3d> waypoints; extern PilotInput input; extern PilotAnswer answer;""",

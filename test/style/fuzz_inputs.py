@@ -65,7 +65,7 @@ INPUTS = {
     "ros/avoidance/flight_commander.cpp": {"std_msgs::Bool": HANDED_OVER},
     "ros/avoidance/local_planner_node.cpp": {
         "LocalPlannerOptions": "vehicle_config_message", "geometry_msgs::PoseStamped": "frame_messages",
-        "nav_msgs::Odometry": "odometry_message", "nav_msgs::Path": "local_planner_messages given_goals frame_messages",
+        "nav_msgs::Odometry": "odometry_message", "nav_msgs::Path": "local_planner_messages finished_goals frame_messages",
         "std_srvs::Trigger": NO_REQUEST},
     "ros/guard/action/action_caller.h": {
         "ActionFeedback": Part(("claimed_lengths go_to_pose_messages", "those of both actions")),
@@ -88,7 +88,7 @@ INPUTS = {
     "ros/driving/joystick_loop.cpp": {"sensor_msgs::Joy": "joy_message", "std_msgs::Bool": HANDED_OVER},
     "ros/driving/move_base_action.h": {"MoveBaseAction": Part(("go_to_pose_messages claimed_lengths", "the goal"))},
     "ros/driving/navigate_path_node.cpp": {"NavigatePathOptions": "config_message", "Trigger": NO_REQUEST,
-                                           "nav_msgs::Path": "path_message given_goals frame_messages"},
+                                           "nav_msgs::Path": "path_message finished_goals frame_messages"},
     "ros/driving/navigate_path_node.h": {"NavigatePathServer": Part(("path_message frame_messages file_name",
                                                                      "its path and its name of a file"))},
     "ros/driving/speed_limit_receiver.cpp": {"nav_msgs::OccupancyGrid": "speed_limit_map"},

@@ -31,10 +31,10 @@ bool hasEnded(PilotStatus status) {
 
 }  // namespace
 
-FlightAction::FlightAction(const ros::NodeHandle& nh, const NodeFiles& files, Hands hands)
+FlightAction::FlightAction(const ros::NodeHandle& nh, const NodeFiles& files, Callbacks callbacks)
     : nh_(nh),
       files_(files),
-      hands_(std::move(hands)),
+      callbacks_(std::move(callbacks)),
       server_(nh_, "navigate_path", false),
       reader_([](const std::string& error) { tellGivenUp("A waypoint file", error); }) {
   server_.registerGoalCallback([this] { onGoal(); });
@@ -50,7 +50,7 @@ FlightAction::~FlightAction() {
 
 void FlightAction::onGoal() {
   if (active_) {
-    hands_.cancel("replaced by another goal");  // whatever becomes of that
+    callbacks_.cancel("replaced by another goal");  // whatever becomes of that
     finish(PilotStatus::CANCELLED, "replaced by another goal");
   }
   const auto goal = server_.acceptNewGoal();
@@ -63,14 +63,14 @@ void FlightAction::onGoal() {
       [&] {
         if (has_file || !has_path)
           throw base::InputError("a goal must give a path of at least one waypoint or a filename");
-        return hands_.read(goal->path);
+        return callbacks_.read(goal->path);
       },
-      true, hands_.handovers());
+      true, callbacks_.handovers());
 }
 
 void FlightAction::onPreempt() {
   if (server_.isNewGoalAvailable() || !active_) return;
-  hands_.cancel("the goal of the action was cancelled");
+  callbacks_.cancel("the goal of the action was cancelled");
   cancelReading("cancelled while its file was read");
 }
 
@@ -83,25 +83,25 @@ bool FlightAction::cancelReading(const std::string& reason) {
 // In the reader's thread, and back.
 void FlightAction::readFile(const std::string& filename) {
   is_read_ = true;
-  reader_.post(
-      [this, filename, number = goals_, handovers = hands_.handovers()](const StopSource& stop) {
-        std::function<Path()> result;
-        try {
-          result = [found = readWaypoints(files_, filename, stop)] { return found; };
-        } catch (const std::exception& error) {
-          result = [what = std::string(error.what())]() -> Path { throw base::InputError(what); };
-        }
-        const auto use = [this, result, number, handovers] {
-          if (active_ && number == goals_ && std::exchange(is_read_, false))
-            start(result, false, handovers);
-        };
-        nh_.getCallbackQueue()->addCallback(callbackOf(use), reinterpret_cast<std::uint64_t>(this));
-      });
+  reader_.post([this, filename, number = goals_,
+                handovers = callbacks_.handovers()](const StopSource& stop) {
+    std::function<Path()> result;
+    try {
+      result = [found = readWaypoints(files_, filename, stop)] { return found; };
+    } catch (const std::exception& error) {
+      result = [what = std::string(error.what())]() -> Path { throw base::InputError(what); };
+    }
+    const auto use = [this, result, number, handovers] {
+      if (active_ && number == goals_ && std::exchange(is_read_, false))
+        start(result, false, handovers);
+    };
+    nh_.getCallbackQueue()->addCallback(callbackOf(use), reinterpret_cast<std::uint64_t>(this));
+  });
 }
 
 void FlightAction::start(const std::function<Path()>& read, bool along, unsigned handovers) {
   try {
-    flown_ = hands_.fly(read(), along, handovers);
+    flown_ = callbacks_.fly(read(), along, handovers);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The goal of the action is refused: " << error.what());
     refuse(error.what());

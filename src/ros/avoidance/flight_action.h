@@ -1,7 +1,7 @@
 // The action `navigate_path` of local_planner: its goals are flown instead of what the topics say.
 //
-//   const FlightAction::Hands hands;
-//   FlightAction action(nh, files, hands);
+//   const FlightAction::Callbacks callbacks;
+//   FlightAction action(nh, files, callbacks);
 //   action.report(answer, pose);     // with every answer of the pilot
 //
 // A path is flown along as that of the topic; the waypoints of a file are flown to one after the other. A
@@ -26,7 +26,7 @@ namespace grid_path_planner::nodes {
 class FlightAction {
  public:
   // What the node does for it.
-  struct Hands {
+  struct Callbacks {
     // Returns it in the map's frame. `handovers`: as handovers() said when it was given. Throws InputError,
     // TransformError.
     std::function<path::Path(const path::Path&, bool along, unsigned handovers)> fly;
@@ -35,7 +35,7 @@ class FlightAction {
     std::function<path::Path(const nav_msgs::Path&)> read;  // throws InputError
   };
 
-  FlightAction(const ros::NodeHandle& nh, const NodeFiles& files, Hands hands);
+  FlightAction(const ros::NodeHandle& nh, const NodeFiles& files, Callbacks callbacks);
   ~FlightAction();
 
   bool isActive() const { return active_; }
@@ -57,7 +57,7 @@ class FlightAction {
 
   ros::NodeHandle nh_;
   NodeFiles files_;
-  Hands hands_;
+  Callbacks callbacks_;
   bool active_ = false;
   bool is_read_ = false;  // its file, still
   unsigned goals_ = 0;    // accepted so far

@@ -80,7 +80,7 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
       hold_([this](unsigned handovers) { noteHandover(handovers); }),
       commander_(nh_, options_, hold_),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
-  action_ = std::make_unique<FlightAction>(nh_, files, hands());
+  action_ = std::make_unique<FlightAction>(nh_, files, actionCallbacks());
   commands_.refuseSimultaneous();
   startLog(files);
   if (MapPlanner::isBuilt())
@@ -125,11 +125,11 @@ void LocalPlannerNode::startLog(const NodeFiles& files) {
   ROS_INFO_STREAM("What the pilot is given and answers is written to " << options_.log);
 }
 
-FlightAction::Hands LocalPlannerNode::hands() {
+FlightAction::Callbacks LocalPlannerNode::actionCallbacks() {
   return {[this](const path::Path& path, bool along, unsigned handovers) {
             const path::Path flown = transforms_.place(path, placingInMap());
             fly(flown, along, handovers);
-            given_goals_.endAllUntil(ros::Time::now());
+            finished_goals_.endAllUntil(ros::Time::now());
             return flown;
           },
           [this] { return handovers_; },
@@ -152,7 +152,7 @@ void LocalPlannerNode::noteHandover(unsigned handovers) {
 }
 
 void LocalPlannerNode::endGoalsUntilNow() {
-  given_goals_.endAllUntil(ros::Time::now());
+  finished_goals_.endAllUntil(ros::Time::now());
 }
 
 void LocalPlannerNode::subscribe() {
@@ -231,7 +231,7 @@ void LocalPlannerNode::timeWentBack(double seconds) {
   if (flies_) pilot_.cancel("time went back by " + std::to_string(seconds) + " s");
   map_.forget();
   odometry_.reset();
-  given_goals_.timeWentBack();
+  finished_goals_.timeWentBack();
   action_->cancelReading("ROS time went back");
   tick(ros::Time::now());  // a goal that comes now is of this time
 }
@@ -271,13 +271,13 @@ void LocalPlannerNode::onPath(const nav_msgs::Path& message) {
     return;
   }
   if (isOfAnotherTime("A path", message.header.stamp)) return;
-  if (given_goals_.isOver(message)) {
+  if (finished_goals_.isOver(message)) {
     ROS_INFO("A path is not flown: its goal was reached or cancelled; give it again");
     return;
   }
   try {
     fly(transforms_.place(message, placingInMap()), true, handovers_);
-    given_goals_.drive(message);
+    finished_goals_.drive(message);
   } catch (const std::runtime_error& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
   }
@@ -340,7 +340,7 @@ void LocalPlannerNode::tick(const ros::Time& now) {
   const bool ended = answer_.status == PilotStatus::ARRIVED ||
                      answer_.status == PilotStatus::STUCK ||
                      answer_.status == PilotStatus::CANCELLED;
-  if (flies_ && answer_.status == PilotStatus::ARRIVED) given_goals_.end();
+  if (flies_ && answer_.status == PilotStatus::ARRIVED) finished_goals_.end();
   if (flies_)
     commander_.command({answer_.velocity, given.velocity, at_.yaw, now, good_for_, ended});
   if (yields) ROS_WARN("The joystick commands: the flight is paused until ~resume");

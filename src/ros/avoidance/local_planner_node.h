@@ -65,8 +65,8 @@
 #include "ros/guard/master/other_commanders.h"
 #include "ros/guard/node_files.h"
 #include "ros/guard/node_time.h"
+#include "ros/input/finished_goals.h"
 #include "ros/input/frame_lookup.h"
-#include "ros/input/given_goals.h"
 
 namespace grid_path_planner {
 class LocalPlannerConfig;
@@ -95,7 +95,7 @@ class LocalPlannerNode {
   void subscribe();
   void startLog(const NodeFiles& files);
   void flyFile(const NodeFiles& files);
-  FlightAction::Hands hands();
+  FlightAction::Callbacks actionCallbacks();
   void noteHandover(unsigned handovers);
   void endGoalsUntilNow();
   FlightHold::Answer cancelByHand();
@@ -140,10 +140,10 @@ class LocalPlannerNode {
   FlightCommander commander_;
   bool had_time_ = false;
   avoidance::VehiclePose at_;
-  double good_for_ = 0.0;   // s from the newest plan, until clouds or pose are too old
-  GivenGoals given_goals_;  // of the topic `path`
-  unsigned handovers_ = 0;  // of the hold, as this queue has heard
-  bool flies_ = false;      // there is a route, and cmd_vel is published
+  double good_for_ = 0.0;         // s from the newest plan, until clouds or pose are too old
+  FinishedGoals finished_goals_;  // of the topic `path`
+  unsigned handovers_ = 0;        // of the hold, as this queue has heard
+  bool flies_ = false;            // there is a route, and cmd_vel is published
 
   ros::Publisher cancelled_publisher_;
   std::vector<ros::Subscriber> subscribers_;

@@ -55,11 +55,11 @@ std::string sentenceOf(const Obstruction& obstruction) {
 }  // namespace
 
 DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& options,
-                     FrameTransforms& transforms, Listener listener)
+                     FrameTransforms& transforms, Callbacks callbacks)
     : options_(options),
       footprint_(Footprint::fromText("check_footprint", options.check_footprint)),
       transforms_(transforms),
-      listener_(std::move(listener)),
+      callbacks_(std::move(callbacks)),
       follower_(options.follower),
       velocity_publisher_(ros::NodeHandle(nh).advertise<geometry_msgs::Twist>("cmd_vel", 10)) {
   ros::NodeHandle own(nh);
@@ -134,7 +134,7 @@ DriveStanding DriveLoop::standing() {
   return thread_.ask([this] { return standingNow(); });
 }
 
-void DriveLoop::setMap(const MapLife& life) {
+void DriveLoop::setMap(const MapLiveness& life) {
   thread_.post([this, life] {
     const bool same = life.map.data.changes() == map_.map.data.changes();
     const DrivenTime driven = same ? map_.driven : DrivenTime();
@@ -262,7 +262,7 @@ void DriveLoop::onManual(const std_msgs::Bool& message) {
 
 // A drive that is paused is resumed by hand.
 void DriveLoop::noteHandover() {
-  if (!follower_.active()) listener_.on_handover(++handovers_);
+  if (!follower_.active()) callbacks_.on_handover(++handovers_);
 }
 
 void DriveLoop::onStop(const std_msgs::Bool& message) {
@@ -335,7 +335,7 @@ void DriveLoop::hand(std::vector<DriveReport> reports) {
     for (DriveReport& report : reports) reports_.push_back(std::move(report));
     if (std::exchange(reports_told_, true)) return;
   }
-  listener_.on_report();
+  callbacks_.on_report();
 }
 
 DriveStanding DriveLoop::standingNow() const {

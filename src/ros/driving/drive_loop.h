@@ -31,7 +31,7 @@
 
 #include "grid_path_planner/following/path_follower.h"
 #include "path/footprint/footprint.h"
-#include "ros/driving/map_life.h"
+#include "ros/driving/map_liveness.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/speed_limit_receiver.h"
 #include "ros/guard/master/master_watch.h"
@@ -69,14 +69,14 @@ struct DriveReport {
 class DriveLoop {
  public:
   // Both are called in the loop's thread.
-  struct Listener {
+  struct Callbacks {
     std::function<void()> on_report;  // there is the first report since takeReports()
     // A joystick has taken over, or let go of, a vehicle that nothing drives; `handovers`: how often that was so far.
     std::function<void(unsigned handovers)> on_handover;
   };
 
   DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& options,
-            FrameTransforms& transforms, Listener listener);
+            FrameTransforms& transforms, Callbacks callbacks);
   // Cancels the drive and publishes a zero.
   ~DriveLoop();
 
@@ -95,7 +95,7 @@ class DriveLoop {
   DriveStanding standing();
 
   // Handed over, not waited for.
-  void setMap(const MapLife& life);
+  void setMap(const MapLiveness& life);
   void setSpeedLimits(const SpeedLimits& limits);
 
   std::vector<DriveReport> takeReports();
@@ -135,12 +135,12 @@ class DriveLoop {
   NavigatePathOptions options_;
   path::Footprint footprint_;  // of the options
   FrameTransforms& transforms_;
-  const Listener listener_;
+  const Callbacks callbacks_;
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   following::PathFollower follower_;
   unsigned drive_ = 0;  // started so far
   unsigned handovers_ = 0;
-  MapLife map_;
+  MapLiveness map_;
   SpeedLimits limits_;
   ros::Time now_;
   Clock::time_point moved_;  // when ROS time did last

@@ -4,7 +4,7 @@
 #include "ros/driving/go_to_pose_node.h"
 #include "ros/driving/navigate_path_node.h"
 #include "ros/driving/teleop_joy_node.h"
-#include "ros/guard/ending/end_of_node.h"
+#include "ros/guard/ending/shutdown_flag.h"
 #include "ros/guard/run_node.h"
 
 namespace grid_path_planner::nodes {
@@ -14,7 +14,7 @@ using path::readWaypointFile;
 namespace {
 
 void checkWaypointFile(const std::string& file) {
-  const EndOfNode end;
+  const ShutdownFlag end;
   readWaypointFile(file, {{}, end.token()});
 }
 

@@ -21,7 +21,7 @@ void NavigatePathNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
 }
 
 void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const MapLife life = map_->life();
+  const MapLiveness life = map_->life();
   const std::string why = whyNoMap(life, {options_.map_timeout, options_.map_data_timeout});
   const std::string misfit =
       options_.check_map ? map_->misfit(options_.limits.thresholds) : std::string();

@@ -102,8 +102,9 @@ NavigatePathNode::NavigatePathNode(ros::NodeHandle& nh, ros::NodeHandle& private
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   waypoint_publisher_ = nh_.advertise<geometry_msgs::PoseStamped>("current_waypoint", 1, true);
   cancelled_publisher_ = nh_.advertise<std_msgs::Empty>("drive_cancelled", 1);
-  loop_ = std::make_unique<DriveLoop>(nh_, options_, transforms_, listener());
-  map_ = std::make_unique<MapWatch>(nh_, [this](const MapLife& life) { loop_->setMap(life); });
+  loop_ = std::make_unique<DriveLoop>(nh_, options_, transforms_, loopCallbacks());
+  map_ =
+      std::make_unique<MapMonitor>(nh_, [this](const MapLiveness& life) { loop_->setMap(life); });
   limits_ = std::make_unique<SpeedLimitReceiver>(
       nh_, [this](const SpeedLimits& limits) { loop_->setSpeedLimits(limits); });
   reader_ = std::make_unique<TaskQueue>(
@@ -140,7 +141,7 @@ void NavigatePathNode::takeLastReports() noexcept {
 }
 
 // What waits in the queue when a joystick takes over was given before that.
-DriveLoop::Listener NavigatePathNode::listener() {
+DriveLoop::Callbacks NavigatePathNode::loopCallbacks() {
   return {[this] { callLater([this] { takeReports(); }); },
           [this](unsigned handovers) {
             callLater([this, handovers] {
@@ -209,12 +210,12 @@ void NavigatePathNode::timeWentBack(double seconds) {
                                            << " s: tf is cleared and the drive cancelled");
   loop_->abandon("ROS time went back");
   endWhatIsNotDriven("ROS time went back");
-  given_goals_.timeWentBack();
+  finished_goals_.timeWentBack();
 }
 
 void NavigatePathNode::startDriving() {
   // Of a driver that was there before.
-  if (!options_.follow_latched) given_goals_.endAllUntil(ros::Time::now());
+  if (!options_.follow_latched) finished_goals_.endAllUntil(ros::Time::now());
   if (options_.config_filename.empty()) {
     path_subscriber_ = subscribeChecked<nav_msgs::Path>(
         nh_, "path", 1, [this](const nav_msgs::Path& path) { onPath(path); });
@@ -280,20 +281,20 @@ void NavigatePathNode::onPath(const nav_msgs::Path& message) {
   }
   if (goal_active_) {
     ROS_WARN("A path is not driven: a goal of the action navigate_path is");
-    given_goals_.endAllUntil(ros::Time::now());
+    finished_goals_.endAllUntil(ros::Time::now());
     return;
   }
   if (message.poses.empty()) {
     loop_->abandon("the path is empty: none was found");
     return;
   }
-  if (given_goals_.isOver(message)) {
+  if (finished_goals_.isOver(message)) {
     ROS_INFO("A path is not driven: its goal was reached or cancelled; give it again");
     return;
   }
   try {
     drive(pathOf(message), Join::NEAREST, handovers_);
-    given_goals_.drive(message);
+    finished_goals_.drive(message);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The path is refused: " << error.what());
   }
@@ -323,7 +324,7 @@ void NavigatePathNode::onGoal() {
 void NavigatePathNode::startGoal(const std::function<Path()>& read, Join join, unsigned handovers) {
   try {
     drive(read(), join, handovers);
-    given_goals_.endAllUntil(ros::Time::now());
+    finished_goals_.endAllUntil(ros::Time::now());
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The goal is refused: " << error.what());
     finishGoal(DriveStatus::INVALID_REQUEST, error.what(), loop_->standing());
@@ -395,7 +396,7 @@ void NavigatePathNode::takeReports() {
     if (!report.event) continue;
     logEvent(*report.event);
     if (report.event->kind != FollowEvent::Kind::ENDED || report.drive != drive_) continue;
-    if (report.standing.status == DriveStatus::ARRIVED) given_goals_.end();
+    if (report.standing.status == DriveStatus::ARRIVED) finished_goals_.end();
     if (goal_active_ && !goal_is_read_)
       finishGoal(report.standing.status, report.standing.message, report.standing);
   }
@@ -404,7 +405,7 @@ void NavigatePathNode::takeReports() {
 // Whoever took the vehicle that stood still does not find it driving off when he lets it go.
 // Returns whether there was a goal whose file is still read.
 bool NavigatePathNode::endWhatIsNotDriven(const std::string& reason) {
-  given_goals_.endAllUntil(ros::Time::now());
+  finished_goals_.endAllUntil(ros::Time::now());
   if (!std::exchange(goal_is_read_, false) || !goal_active_) return false;
   finishGoal(DriveStatus::CANCELLED, reason, loop_->standing());
   return true;

@@ -44,15 +44,15 @@
 
 #include "grid_path_planner/base/task_queue.h"
 #include "ros/driving/drive_loop.h"
-#include "ros/driving/map_watch.h"
+#include "ros/driving/map_monitor.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/guard/master/command_claim.h"
 #include "ros/guard/master/master_watch.h"
 #include "ros/guard/master/other_commanders.h"
 #include "ros/guard/node_files.h"
 #include "ros/guard/node_time.h"
+#include "ros/input/finished_goals.h"
 #include "ros/input/frame_lookup.h"
-#include "ros/input/given_goals.h"
 #include "ros/messages/navigate_path_action.h"
 
 namespace grid_path_planner {
@@ -81,7 +81,7 @@ class NavigatePathNode {
  private:
   using Answer = following::PathFollower::Answer;
 
-  DriveLoop::Listener listener();
+  DriveLoop::Callbacks loopCallbacks();
   void offerServices(ros::NodeHandle& private_nh);
   void startAction();
   void startTimers();
@@ -127,13 +127,13 @@ class NavigatePathNode {
   NodeTime& time_;
   bool waits_for_clock_ = false;
   bool goal_active_ = false;
-  unsigned goals_ = 0;         // accepted so far
-  bool goal_is_read_ = false;  // its file, still
-  unsigned drive_ = 0;         // begun last
-  unsigned handovers_ = 0;     // of the loop, as this queue has heard
-  GivenGoals given_goals_;     // of the topic `path`
+  unsigned goals_ = 0;            // accepted so far
+  bool goal_is_read_ = false;     // its file, still
+  unsigned drive_ = 0;            // begun last
+  unsigned handovers_ = 0;        // of the loop, as this queue has heard
+  FinishedGoals finished_goals_;  // of the topic `path`
   std::unique_ptr<DriveLoop> loop_;
-  std::unique_ptr<MapWatch> map_;
+  std::unique_ptr<MapMonitor> map_;
   std::unique_ptr<SpeedLimitReceiver> limits_;
 
   ros::Publisher waypoint_publisher_, cancelled_publisher_;

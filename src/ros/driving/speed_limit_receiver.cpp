@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/driving/map_life.h"
+#include "ros/driving/map_liveness.h"
 #include "ros/guard/incoming/claimed_lengths.h"
 
 namespace grid_path_planner::nodes {
@@ -48,13 +48,13 @@ std::string SpeedLimitReceiver::publisher() const {
 void SpeedLimitReceiver::onAnswer(const std::string& node) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (limits_.publisher != node) return;
-  limits_.sign = std::chrono::steady_clock::now();
+  limits_.last_heard = std::chrono::steady_clock::now();
   listener_(limits_);
 }
 
 std::string whyNoLimits(const SpeedLimits& limits) {
   if (!limits.grid) return "";
-  const double silence = base::secondsSince(limits.sign);
+  const double silence = base::secondsSince(limits.last_heard);
   if (silence <= kPublisherTimeout) return "";
   return "the map of speed limits on " + limits.topic + " is not kept up: " + limits.publisher +
          " has not answered for " + silenceText(silence);

@@ -25,7 +25,8 @@ struct SpeedLimits {
   std::shared_ptr<const grid::OccupancyGrid> grid;  // null before the first map
   std::string frame_id;
   std::string topic, publisher;
-  std::chrono::steady_clock::time_point sign;  // of life of the publisher: the map, or an answer
+  std::chrono::steady_clock::time_point
+      last_heard;  // of life of the publisher: the map, or an answer
 };
 
 // Why the vehicle must not be driven by them, in a sentence; empty where it may, as without a map.

@@ -8,7 +8,7 @@
 // the manager would call them in another thread. Why it is not loaded stands in the manager's log.
 //
 // One that commands a vehicle derives from CommanderShell<Node>: before a signal or `rosnode kill` ends the
-// manager its `stop()` is called, from another thread (manager_end.h).
+// manager its `stop()` is called, from another thread (manager_shutdown.h).
 #pragma once
 
 #include <nodelet/nodelet.h>
@@ -20,8 +20,8 @@
 #include <optional>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "ros/guard/ending/held_name.h"
-#include "ros/guard/ending/manager_end.h"
+#include "ros/guard/ending/manager_shutdown.h"
+#include "ros/guard/ending/nodelet_name_lock.h"
 #include "ros/guard/guarded_queue.h"
 #include "ros/guard/master/master_watch.h"
 #include "ros/guard/outgoing/topic_changes.h"
@@ -60,7 +60,7 @@ class NodeletShell : public nodelet::Nodelet {
   }
 
  private:
-  std::optional<HeldName> name_;  // first: it outlives the node
+  std::optional<NodeletNameLock> name_;  // first: it outlives the node
   ros::NodeHandle nh_, private_nh_;
   std::unique_ptr<GuardedQueue> queue_;
 
@@ -85,7 +85,7 @@ class CommanderShell : public NodeletShell<Node> {
     end_.emplace([this] { this->node().stop(); });
   }
 
-  std::optional<ManagerEnd> end_;
+  std::optional<ManagerShutdown> end_;
 };
 
 }  // namespace grid_path_planner::nodes

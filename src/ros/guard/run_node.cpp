@@ -12,8 +12,8 @@
 #include <optional>
 
 #include "ros/guard/guarded_queue.h"
-#include "ros/guard/master/end_without_master.h"
 #include "ros/guard/master/master_watch.h"
+#include "ros/guard/master/shutdown_timeout.h"
 #include "ros/guard/outgoing/topic_changes.h"
 #include "ros/guard/outgoing/unread_log.h"
 #include "ros/guard/process/freed_memory.h"
@@ -143,7 +143,7 @@ int runNode(int argc, char** argv, const std::string& name, const NodeMaker& mak
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
-  const EndWithoutMaster limit(name, isAskedToEnd);
+  const ShutdownTimeout limit(name, isAskedToEnd);
   int result = 0;
   master_is_there = ros::master::check();
   if (const auto exit_code = exitCodeOf(check, name)) return *exit_code;

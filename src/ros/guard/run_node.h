@@ -9,7 +9,7 @@
 // others, and the log says why. roscpp by itself closes all connections first, so that no last
 // message leaves. An exception of a callback ends the callback (guarded_queue.h); a master that was
 // restarted knows the node again (master_watch.h), and one that answers nobody does not keep it from
-// ending (end_without_master.h). A log that nobody reads holds up nobody, where it is a pipe (unread_log.h). Not
+// ending (shutdown_timeout.h). A log that nobody reads holds up nobody, where it is a pipe (unread_log.h). Not
 // guaranteed: anything after SIGKILL.
 #pragma once
 

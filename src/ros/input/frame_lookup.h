@@ -118,11 +118,11 @@ class FrameLookup {
 // begins.
 class FrameTransforms : public FrameLookup {
  public:
-  // `hearer`: see TransformReceiver. Whoever wants to hear tf does so by this, not by a second
+  // `listener`: see TransformReceiver. Whoever wants to hear tf does so by this, not by a second
   // subscription.
-  explicit FrameTransforms(const ros::NodeHandle& nh, TransformReceiver::Hearer hearer = {})
+  explicit FrameTransforms(const ros::NodeHandle& nh, TransformReceiver::Listener listener = {})
       : on_jump_back_(NodeTime::of(nh).onJumpBack([this](double) { clear(); })),
-        receiver_(nh, buffer(), std::move(hearer)) {}
+        receiver_(nh, buffer(), std::move(listener)) {}
 
  private:
   const std::shared_ptr<void> on_jump_back_;

@@ -52,9 +52,9 @@ void TransformStamps::giveBack(const std::string& child, const ros::Time& stamp)
   of_[child].erase(stamp.toNSec());
 }
 
-TransformReceiver::TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer, Hearer hearer)
+TransformReceiver::TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer, Listener listener)
     : buffer_(buffer),
-      hearer_(std::move(hearer)),
+      listener_(std::move(listener)),
       stamps_(buffer.getCacheLength().toSec()),
       on_jump_back_(guarded_.time().onJumpBack([this](double) {
         buffer_.clear();
@@ -80,7 +80,7 @@ TransformReceiver::~TransformReceiver() {
 
 void TransformReceiver::receive(const tf2_msgs::TFMessage& message, const std::string& node,
                                 bool is_static) {
-  if (hearer_) hearer_(message, node, is_static);
+  if (listener_) listener_(message, node, is_static);
   const ros::Time now = ros::Time::now();
   static LogThrottle seldom(kWarningPeriod);
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {

@@ -57,17 +57,17 @@ std::string insertTransform(tf2::BufferCore& buffer, TransformStamps& stamps,
 class TransformReceiver {
  public:
   // Told each message before it is put into the buffer, in the receiver's thread.
-  using Hearer =
+  using Listener =
       std::function<void(const tf2_msgs::TFMessage&, const std::string& node, bool is_static)>;
 
-  TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer, Hearer hearer = {});
+  TransformReceiver(ros::NodeHandle nh, tf2_ros::Buffer& buffer, Listener listener = {});
   ~TransformReceiver();
 
  private:
   void receive(const tf2_msgs::TFMessage& message, const std::string& node, bool is_static);
 
   tf2_ros::Buffer& buffer_;
-  const Hearer hearer_;
+  const Listener listener_;
   TransformStamps stamps_;
   ros::CallbackQueue queue_;
   GuardedQueue guarded_{queue_};

@@ -14,8 +14,6 @@ namespace grid_path_planner::nodes {
 
 class LayerSource {
  public:
-  using Clock = std::chrono::steady_clock;
-
   // `topic`: resolved. `expires`: whether it must go on saying something.
   LayerSource(std::string topic, bool used, bool expires)
       : topic_(std::move(topic)), used_(used), expires_(expires) {}
@@ -29,7 +27,7 @@ class LayerSource {
   // What it said before still holds, and is of this time.
   void beat(const ros::Time& stamp) {
     stamp_ = stamp;
-    heard_ = Clock::now();
+    heard_ = std::chrono::steady_clock::now();
   }
   // It said something that cannot be used: it counts as not there until it says something else.
   void refuse(std::string problem) { problem_ = std::move(problem); }
@@ -63,7 +61,7 @@ class LayerSource {
   bool there_ = false;
   std::string problem_;
   ros::Time stamp_;
-  Clock::time_point heard_ = Clock::now();
+  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace grid_path_planner::nodes

@@ -6,7 +6,7 @@
 
 #include "grid_path_planner/MapLayersConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/guard/ending/end_of_node.h"
+#include "ros/guard/ending/shutdown_flag.h"
 #include "ros/guard/outgoing/diagnostics_timer.h"
 #include "ros/guard/parameters.h"
 #include "ros/guard/scheduling/guarded_timer.h"
@@ -77,7 +77,7 @@ MapLayersNode::~MapLayersNode() = default;
 
 Zones MapLayersNode::loadZones(const MapLayersOptions& options) const {
   if (options.zones_file.empty()) return {};
-  const EndOfNode end;
+  const ShutdownFlag end;
   Zones zones =
       files_.read("zones_file", options.zones_file, zoneFiles(), [&](const std::string& file) {
         return layers::readZones(file, {options.reading, end.token()});

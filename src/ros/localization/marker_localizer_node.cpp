@@ -8,7 +8,7 @@
 #include "grid_path_planner/MarkerLocalizerConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "localization/measurement_check.h"
-#include "ros/guard/ending/end_of_node.h"
+#include "ros/guard/ending/shutdown_flag.h"
 #include "ros/guard/guarded_queue.h"
 #include "ros/guard/incoming/advertised_service.h"
 #include "ros/guard/incoming/claimed_lengths.h"
@@ -48,7 +48,7 @@ MarkerLocalizerOptions loadMarkerLocalizerOptions(const ros::NodeHandle& private
 
 vision::MarkerLayout loadLayout(const MarkerLocalizerOptions& options, const NodeFiles& files) {
   return files.read("layout", options.layout, markerLayoutFiles(), [&](const std::string& file) {
-    return vision::readMarkerLayout(file, {options.reading, EndOfNode().token()});
+    return vision::readMarkerLayout(file, {options.reading, ShutdownFlag().token()});
   });
 }
 

@@ -146,26 +146,19 @@ Input<Message>& VehicleLocalizerNode::listen(Source source, ros::NodeHandle& nh,
 }
 
 void VehicleLocalizerNode::subscribe(ros::NodeHandle& nh) {
-  using geometry_msgs::Twist, geometry_msgs::TwistWithCovarianceStamped;
+  const auto taking = [this](auto measurement) {
+    return [this, measurement](const auto& message) { take((messages_.*measurement)(message)); };
+  };
   listen<sensor_msgs::Imu>(Source::IMU, nh,
                            [this](const sensor_msgs::Imu& message) { onImu(message); });
-  listen<TwistWithCovarianceStamped>(
-      Source::DVL, nh,
-      [this](const TwistWithCovarianceStamped& message) { take(messages_.dvl(message)); });
-  listen<PoseWithCovarianceStamped>(
-      Source::USBL, nh,
-      [this](const PoseWithCovarianceStamped& message) { take(messages_.usbl(message)); });
-  listen<PoseWithCovarianceStamped>(
-      Source::MARKER, nh,
-      [this](const PoseWithCovarianceStamped& message) { take(messages_.marker(message)); });
+  using geometry_msgs::Twist, geometry_msgs::TwistWithCovarianceStamped;
+  listen<TwistWithCovarianceStamped>(Source::DVL, nh, taking(&SensorMessages::dvl));
+  listen<PoseWithCovarianceStamped>(Source::USBL, nh, taking(&SensorMessages::usbl));
+  listen<PoseWithCovarianceStamped>(Source::MARKER, nh, taking(&SensorMessages::marker));
   if (options_.use_pressure)
-    listen<sensor_msgs::FluidPressure>(
-        Source::DEPTH, nh,
-        [this](const sensor_msgs::FluidPressure& message) { take(messages_.pressure(message)); });
+    listen<sensor_msgs::FluidPressure>(Source::DEPTH, nh, taking(&SensorMessages::pressure));
   else
-    listen<PoseWithCovarianceStamped>(
-        Source::DEPTH, nh,
-        [this](const PoseWithCovarianceStamped& message) { take(messages_.depth(message)); });
+    listen<PoseWithCovarianceStamped>(Source::DEPTH, nh, taking(&SensorMessages::depth));
   listen<Twist>(Source::COMMAND, nh, [this](const Twist& message) { onCommand(message); });
 }
 

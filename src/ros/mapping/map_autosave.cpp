@@ -10,8 +10,8 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
-#include "ros/guard/master/end_without_master.h"
 #include "ros/guard/master/kept_file.h"
+#include "ros/guard/master/shutdown_timeout.h"
 #include "ros/guard/scheduling/log_throttle.h"
 
 namespace grid_path_planner::nodes {
@@ -111,7 +111,7 @@ void MapAutosave::save(const MapModel& map, const ros::Time& newest_cloud, When 
   share_.take([&] { text = map.map().fileText(commentsOf(marker(), newest_cloud)); });
   writer_.post(
       [this, newest_cloud, file = file_, replaced = replaced_, text = std::move(text),
-       work = std::make_shared<LastWork>()](const StopSource&) {
+       work = std::make_shared<ShutdownBlocker>()](const StopSource&) {
         write(file, text, newest_cloud);
         std::error_code ignored;  // then it is an old one of another run
         if (!replaced.empty() && state().problem.empty())

@@ -5,8 +5,8 @@
 
 #include "grid_path_planner/ProjectedMapConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/guard/ending/end_of_node.h"
-#include "ros/guard/master/end_without_master.h"
+#include "ros/guard/ending/shutdown_flag.h"
+#include "ros/guard/master/shutdown_timeout.h"
 #include "ros/guard/parameters.h"
 #include "ros/guard/process/memory_limit_line.h"
 #include "ros/guard/scheduling/guarded_timer.h"
@@ -74,7 +74,7 @@ mapping::CloudFrames framesOf(const std::vector<Eigen::Isometry3d>& poses, bool 
 // memory, is no such case: the file is still good, and is there when the node starts again.
 std::unique_ptr<MappingThread> makeThread(const ProjectedMapOptions& options,
                                           const MapAutosave* autosave) {
-  const EndOfNode end;
+  const ShutdownFlag end;
   const std::string kept = autosave ? autosave->begin() : "";
   try {
     return std::make_unique<MappingThread>(options, kept, end.token());
@@ -151,7 +151,7 @@ ProjectedMapOptions ProjectedMapNode::withFile(ProjectedMapOptions options,
 }
 
 void ProjectedMapNode::use(const ProjectedMapOptions& options) {
-  const EndOfNode end;
+  const ShutdownFlag end;
   thread_->run([&](MapModel& map) {
     map.setOptions(withFile(options, map.options().filename), end.token());
     if (autosave_) autosave_->setOptions(options);
@@ -190,13 +190,11 @@ void ProjectedMapNode::insertAll(MapModel& map) {
   clouds_->clear("came before ~clear_bbx");
 }
 
-void ProjectedMapNode::postInsertion() {
-  thread_->post("insert", [this](MapModel& map) { insertNext(map); });
-}
-
 // One cloud a task, so that services and publications are done in between.
-void ProjectedMapNode::insertNext(MapModel& map) {
-  if (insertOne(map)) postInsertion();
+void ProjectedMapNode::postInsertion() {
+  thread_->post("insert", [this](MapModel& map) {
+    if (insertOne(map)) postInsertion();
+  });
 }
 
 // Whether there was one.
@@ -226,7 +224,7 @@ void ProjectedMapNode::insert(MapModel& map, const Clouds::Arrival& cloud) {
 }
 
 void ProjectedMapNode::save(const MapModel& map, MapAutosave::When when) {
-  const LastWork work;
+  const ShutdownBlocker work;
   autosave_->save(map, publications_->map().newestCloud(), when);
 }
 

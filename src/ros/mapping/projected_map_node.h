@@ -69,7 +69,6 @@ class ProjectedMapNode {
   // In the map's thread
   void forgetAll();
   void insertAll(mapping::MapModel& map);
-  void insertNext(mapping::MapModel& map);
   bool insertOne(mapping::MapModel& map);
   void insert(mapping::MapModel& map, const Clouds::Arrival& cloud);
   void save(const mapping::MapModel& map, MapAutosave::When when);

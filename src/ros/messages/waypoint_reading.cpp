@@ -6,14 +6,14 @@
 
 #include "grid_path_planner/base/level_quaternion.h"
 #include "grid_path_planner/path/waypoint_file.h"
-#include "ros/guard/ending/end_of_node.h"
+#include "ros/guard/ending/shutdown_flag.h"
 #include "ros/messages/file_kinds.h"
 
 namespace grid_path_planner::nodes {
 
 path::Path readWaypoints(const NodeFiles& files, const std::string& filename,
                          const base::StopSource& stop) {
-  const EndOfNode end(stop);
+  const ShutdownFlag end(stop);
   path::WaypointFile read =
       files.read("config_filename", filename, waypointFiles(), [&](const std::string& file) {
         return path::readWaypointFile(file, {{}, end.token()});

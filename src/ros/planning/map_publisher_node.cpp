@@ -5,7 +5,7 @@
 #include "grid_path_planner/MapPublisherConfig.h"
 #include "grid_path_planner/ros/bag.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/guard/ending/end_of_node.h"
+#include "ros/guard/ending/shutdown_flag.h"
 #include "ros/guard/incoming/advertised_service.h"
 #include "ros/guard/network_text.h"
 #include "ros/guard/outgoing/latched_message.h"
@@ -68,7 +68,7 @@ MapPublisherNode::~MapPublisherNode() {
 
 OccupancyGrid MapPublisherNode::readMap(const MapPublisherOptions& wanted) const {
   const std::string& filename = wanted.filename;
-  const EndOfNode end;
+  const ShutdownFlag end;
   MapFileOptions options;
   options.bag_topic = wanted.bag_topic;
   options.limits = {wanted.reading, end.token()};

@@ -7,7 +7,7 @@
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "grid_path_planner/simulation/world.h"
-#include "ros/guard/ending/end_of_node.h"
+#include "ros/guard/ending/shutdown_flag.h"
 #include "ros/guard/incoming/claimed_lengths.h"
 #include "ros/guard/outgoing/topic_changes.h"
 #include "ros/guard/parameters.h"
@@ -79,7 +79,7 @@ SimulatorOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles&
 
 std::shared_ptr<const World> loadWorld(const SimulatorOptions& options, const NodeFiles& files) {
   if (options.world.empty()) return nullptr;
-  const EndOfNode end;
+  const ShutdownFlag end;
   return std::make_shared<const World>(
       files.read("world", options.world, worldFiles(), [&](const std::string& file) {
         return readWorld(file, {options.reading, end.token()});
@@ -230,38 +230,28 @@ bool SimulatorNode::mustWaitForCommand() const {
 }
 
 void SimulatorNode::step() {
-  if (camera_ && camera_->due(vehicle_->timeNs())) captureDepthImage();
-  if (image_camera_ && image_camera_->wants(vehicle_->timeNs())) captureImage();
+  const std::int64_t time = vehicle_->timeNs();
+  if (camera_ && camera_->due(time)) camera_->capture(vehicle_->state(), time, publishState());
+  if (image_camera_ && image_camera_->wants(time))
+    image_camera_->capture(vehicle_->state(), time,
+                           {options_.sensor_frames.image_camera, publishState()});
   vehicle_->step();
   odometry_.advance(vehicle_->state());
   sensor_publisher_.advance(vehicle_->state(), vehicle_->timeNs());
 }
 
-// With tf of exactly its stamp, sent before it.
-void SimulatorNode::captureDepthImage() {
-  publishState();
-  camera_->capture(vehicle_->state(), vehicle_->timeNs(), now());
-}
-
-void SimulatorNode::captureImage() {
-  publishState();
-  image_camera_->capture(vehicle_->state(), vehicle_->timeNs(),
-                         {options_.sensor_frames.image_camera, now()});
-}
-
-ros::Time SimulatorNode::now() const {
-  return clock_.now(vehicle_->timeNs());
-}
-
-// Nothing measured is stamped ahead of time: /clock goes before it.
-void SimulatorNode::publishState() {
-  const ros::Time stamp = now();
-  if (!clock_.publish(stamp))
-    return sensor_publisher_.dropOld(stamp);  // tf warns about repeated stamps
+// Nothing measured is stamped ahead of time: /clock goes before it. tf warns about repeated stamps.
+ros::Time SimulatorNode::publishState() {
+  const ros::Time stamp = clock_.now(vehicle_->timeNs());
+  if (!clock_.publish(stamp)) {
+    sensor_publisher_.dropOld(stamp);
+    return stamp;
+  }
   vehicle_publisher_.publish(vehicle_->state(), odometry_.measured(), stamp, frameNames(options_));
   sensor_publisher_.publish(
       options_.sensor_frames, options_.map_frame,
       [this](std::int64_t time_ns) { return clock_.stampOf(time_ns, vehicle_->timeNs()); });
+  return stamp;
 }
 
 }  // namespace grid_path_planner::nodes

@@ -79,10 +79,8 @@ class SimulatorNode {
   void step();
   bool mustWaitForCamera() const;
   bool mustWaitForCommand() const;
-  void captureDepthImage();
-  void captureImage();
-  void publishState();
-  ros::Time now() const;
+  // Tf of exactly the stamp that is returned, and what else is of it.
+  ros::Time publishState();
 
   ros::NodeHandle nh_;
   SimulatorOptions options_;

@@ -9,7 +9,7 @@
 #include "fuzz/fuzz_target.h"
 #include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/input/given_goals.h"
+#include "ros/input/finished_goals.h"
 #include "ros/messages/velocity_message.h"
 
 namespace grid_path_planner::fuzz {
@@ -34,9 +34,9 @@ std::vector<std::string> seedsOfGivenGoals() {
 }
 
 // As navigate_path and local_planner do it; the stamp of the path is the time of the end.
-FUZZ_TARGET(given_goals, seedsOfGivenGoals) {
+FUZZ_TARGET(finished_goals, seedsOfGivenGoals) {
   Messages messages(input);
-  nodes::GivenGoals goals;
+  nodes::FinishedGoals goals;
   for (int i = 0; i < kMostPaths && !messages.atEnd(); ++i) {
     const int what = messages.byte() % 4;
     const auto path = messages.next<nav_msgs::Path>();

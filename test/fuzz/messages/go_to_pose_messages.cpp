@@ -10,7 +10,7 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "ros/driving/go_to_messages.h"
 #include "ros/guard/action/action_stamps.h"
-#include "ros/guard/action/seen_goals.h"
+#include "ros/guard/action/goals_of_status.h"
 
 namespace grid_path_planner::fuzz {
 namespace {
@@ -146,7 +146,7 @@ FUZZ_TARGET(goal_statuses, seedsOfStatuses) {
   const auto status = messageOf<actionlib_msgs::GoalStatusArray>(input);
   if (!status) return;
   const nodes::GoalNames names{"/go-calls-", "/go-calls-1-1"};
-  const nodes::SeenGoals seen = nodes::seenGoals(*status, names);
+  const nodes::GoalsOfStatus seen = nodes::seenGoals(*status, names);
   for (const std::string& id : seen.earlier)
     mustHold(id.rfind(names.mine, 0) == 0 && id != names.id,
              "only its own goals are cancelled, and not the one that goes on");

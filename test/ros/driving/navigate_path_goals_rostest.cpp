@@ -24,7 +24,7 @@ using test::StillWorld;
 
 const char* const kNotDriven = "A path is not driven: its goal was reached or cancelled";
 
-class GivenGoalsTest : public test::StillTest {
+class FinishedGoalsTest : public test::StillTest {
  protected:
   // Until goals of a while ago are from after it.
   void start() {
@@ -66,7 +66,7 @@ class GivenGoalsTest : public test::StillTest {
   const path::Path here_ = pathOf({{0, 0}, {0.01, 0}});
 };
 
-TEST_F(GivenGoalsTest, AGoalThatWasReachedIsNotDrivenToAgain) {
+TEST_F(FinishedGoalsTest, AGoalThatWasReachedIsNotDrivenToAgain) {
   start();
   const ros::Time goal = now();
   publishPathFor(goal, here_);
@@ -75,7 +75,7 @@ TEST_F(GivenGoalsTest, AGoalThatWasReachedIsNotDrivenToAgain) {
   driveToNewGoal();
 }
 
-TEST_F(GivenGoalsTest, APathThatIsPlannedAgainMeanwhileIsDriven) {
+TEST_F(FinishedGoalsTest, APathThatIsPlannedAgainMeanwhileIsDriven) {
   start();
   const ros::Time goal = driveToNewGoal();
   paths_.publish(pathToMessage(path::Path{"map", {}}, now()));
@@ -85,14 +85,14 @@ TEST_F(GivenGoalsTest, APathThatIsPlannedAgainMeanwhileIsDriven) {
 }
 
 // One without a stamp was dropped without a word.
-TEST_F(GivenGoalsTest, AnEmptyPathWithoutAStampStopsTheVehicle) {
+TEST_F(FinishedGoalsTest, AnEmptyPathWithoutAStampStopsTheVehicle) {
   start();
   driveToNewGoal();
   paths_.publish(pathToMessage(path::Path{"map", {}}, ros::Time()));
   EXPECT_TRUE(stops());
 }
 
-TEST_F(GivenGoalsTest, WhatSomebodyCancelledStaysCancelled) {
+TEST_F(FinishedGoalsTest, WhatSomebodyCancelledStaysCancelled) {
   start();
   const ros::Time goal = driveToNewGoal();
   const ros::Time not_found_yet = aWhileAgo();
@@ -103,7 +103,7 @@ TEST_F(GivenGoalsTest, WhatSomebodyCancelledStaysCancelled) {
 }
 
 // path_planner finds no path, and then one again: the vehicle that somebody had paused drove off.
-TEST_F(GivenGoalsTest, APauseOutlivesAnEmptyPath) {
+TEST_F(FinishedGoalsTest, APauseOutlivesAnEmptyPath) {
   start();
   const ros::Time goal = driveToNewGoal();
   EXPECT_TRUE(ask("pause"));
@@ -118,7 +118,7 @@ TEST_F(GivenGoalsTest, APauseOutlivesAnEmptyPath) {
 }
 
 // It was refused, and the path that came then was driven.
-TEST_F(GivenGoalsTest, APauseBeforeThePathComesHoldsForIt) {
+TEST_F(FinishedGoalsTest, APauseBeforeThePathComesHoldsForIt) {
   start();
   EXPECT_TRUE(ask("pause"));
   publishPathFor(now(), far_);
@@ -128,7 +128,7 @@ TEST_F(GivenGoalsTest, APauseBeforeThePathComesHoldsForIt) {
   driveToNewGoal();
 }
 
-TEST_F(GivenGoalsTest, AGoalOfTheActionThatIsRefusedEndsNothing) {
+TEST_F(FinishedGoalsTest, AGoalOfTheActionThatIsRefusedEndsNothing) {
   start();
   const ros::Time goal = driveToNewGoal();
   ros::Publisher action = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1);
@@ -142,7 +142,7 @@ TEST_F(GivenGoalsTest, AGoalOfTheActionThatIsRefusedEndsNothing) {
 }
 
 // Its predecessor may have reached it, or been told to cancel it.
-TEST_F(GivenGoalsTest, AGoalFromBeforeTheStartIsNotDriven) {
+TEST_F(FinishedGoalsTest, AGoalFromBeforeTheStartIsNotDriven) {
   const ros::Time before = aWhileAgo();
   start();
   expectNotDriven(before);
@@ -150,7 +150,7 @@ TEST_F(GivenGoalsTest, AGoalFromBeforeTheStartIsNotDriven) {
 }
 
 // Whoever takes a vehicle that stands by a joystick does not find it driving off when he lets go.
-TEST_F(GivenGoalsTest, AJoystickEndsWhatNothingIsDrivenFor) {
+TEST_F(FinishedGoalsTest, AJoystickEndsWhatNothingIsDrivenFor) {
   start();
   const ros::Time not_found_yet = aWhileAgo();
   ros::Publisher manual = nh_.advertise<std_msgs::Bool>("manual_control", 1);
@@ -171,7 +171,7 @@ TEST_F(GivenGoalsTest, AJoystickEndsWhatNothingIsDrivenFor) {
 
 // Of 8 goals that came as /clock went back 7 were told that they were cancelled, and the vehicle drove on for them,
 // beyond any cancel: the end of the drive before was taken for theirs.
-TEST_F(GivenGoalsTest, TheEndOfTheDriveBeforeIsNotThatOfANewGoal) {
+TEST_F(FinishedGoalsTest, TheEndOfTheDriveBeforeIsNotThatOfANewGoal) {
   start();
   const test::Latest<NavigatePathActionResult> results(nh_, "navigate_path/result");
   ros::Publisher action = nh_.advertise<NavigatePathActionGoal>("navigate_path/goal", 1);
@@ -198,7 +198,7 @@ TEST_F(GivenGoalsTest, TheEndOfTheDriveBeforeIsNotThatOfANewGoal) {
 }
 
 // A bag that began anew set a vehicle going for a goal that had been cancelled.
-TEST_F(GivenGoalsTest, AfterTimeHasGoneBackNewGoalsAreDrivenAndThoseOfBeforeAreNot) {
+TEST_F(FinishedGoalsTest, AfterTimeHasGoneBackNewGoalsAreDrivenAndThoseOfBeforeAreNot) {
   start();
   const ros::Time old = now(), driven = driveToNewGoal();
   EXPECT_TRUE(ask("cancel"));
@@ -213,7 +213,7 @@ TEST_F(GivenGoalsTest, AfterTimeHasGoneBackNewGoalsAreDrivenAndThoseOfBeforeAreN
 }
 
 // It was driven, once it had been read: by then it was a goal of another time.
-TEST_F(GivenGoalsTest, AGoalWhoseFileIsReadAsTimeGoesBackIsNotDriven) {
+TEST_F(FinishedGoalsTest, AGoalWhoseFileIsReadAsTimeGoesBackIsNotDriven) {
   const test::TemporaryFolder folder;
   path::Path route{"map", {}};
   for (int i = 0; i < 200000; ++i) route.poses.push_back({{40.0 + 0.001 * i, 0.0, 0.0}, 0.0});

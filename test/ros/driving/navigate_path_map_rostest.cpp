@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/driving/map_watch.h"
+#include "ros/driving/map_monitor.h"
 #include "ros/guard/guarded_queue.h"
 #include "ros/support/still_fixture.h"
 #include "support/ascii_map.h"
@@ -79,7 +79,7 @@ TEST_F(NavigateMap, WhatOneThreadTellsIsNeverOlderThanWhatTheOtherHasTold) {
   GuardedQueue guarded(queue);
   ros::NodeHandle nh;
   nh.setCallbackQueue(&guarded);
-  const MapWatch watch(nh, [&](const MapLife&) {
+  const MapMonitor watch(nh, [&](const MapLiveness&) {
     at_once = std::max(at_once.load(), ++telling);
     ros::WallDuration(0.1).sleep();
     --telling;

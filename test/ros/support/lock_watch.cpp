@@ -111,7 +111,7 @@ const Kind& kindOf(const void* site) {
   kind.watched = isWatched(site);
   kind.slow = publishesOrLogs(libraryOf(site));
   kind.maps = function.find("MapReceiver") != std::string::npos ||
-              function.find("MapWatch") != std::string::npos;
+              function.find("MapMonitor") != std::string::npos;
   return kind;
 }
 

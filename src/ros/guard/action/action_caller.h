@@ -26,7 +26,7 @@
 #include <utility>
 
 #include "base/seconds_since.h"
-#include "ros/guard/action/seen_goals.h"
+#include "ros/guard/action/goals_of_status.h"
 #include "ros/guard/incoming/bounded_subscription.h"
 
 namespace grid_path_planner::nodes {
@@ -148,7 +148,7 @@ class ActionCaller {
     handlers_.on_feedback(message.feedback);
   }
   void onStatus(const actionlib_msgs::GoalStatusArray& message) {
-    const SeenGoals seen = seenGoals(message, {mine_, id_});
+    const GoalsOfStatus seen = seenGoals(message, {mine_, id_});
     for (const std::string& id : seen.earlier) cancelNamed(id);
     if (cancelled_ && seen.own && !seen.own_is_over) cancelNamed(id_);
     if (seen.own_is_over && !ended_) ended_ = Clock::now();

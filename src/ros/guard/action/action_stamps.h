@@ -8,7 +8,7 @@
 // cancels every later one; and where its id is unknown, no status is published any more. A cancel with a stamp is of all
 // goals that are stamped until then: of those that came, by the senders' stamps, which are remembered; one that comes
 // after its cancel has overtaken it is cancelled, too. One whose stamp is more than 10 s before that cancel's was not overtaken:
-// no message is under way that long, so its sender's clock is another. Stamps that are ahead of the time here are of no clock.
+// no message is in transit that long, so its sender's clock is another. Stamps that are ahead of the time here are of no clock.
 #pragma once
 
 #include <ros/time.h>
@@ -28,7 +28,7 @@ class ActionStamps {
     given = normalized(given);
     now = normalized(now);
     const double before = secondsBetween(given, cancelled_until_);
-    if (!given.isZero() && before > 0.0 && before <= kLongestUnderWay) return ros::TIME_MIN;
+    if (!given.isZero() && before > 0.0 && before <= kLongestInTransit) return ros::TIME_MIN;
     const ros::Time stamp = next(now);
     goals_.push_back({given.isZero() || given > now ? now : given, stamp});
     if (goals_.size() > kMostGoals) goals_.pop_front();
@@ -59,7 +59,7 @@ class ActionStamps {
     ros::Time given;  // by its sender, or when it came
     ros::Time stamp;
   };
-  static constexpr double kLongestUnderWay = 10.0;  // s
+  static constexpr double kLongestInTransit = 10.0;  // s
   static constexpr std::size_t kMostGoals = 50;  // of which the last are meant by whoever cancels
 
   ros::Time next(const ros::Time& now) {

@@ -1,7 +1,7 @@
 // Receives the map and watches whether its publisher lives: by its heartbeats, and by its answers where it has sent none
 // (publisher_watch.h).
 //
-//   MapWatch watch(nh, [&](const MapLife& life) { use(life); });
+//   MapMonitor watch(nh, [&](const MapLiveness& life) { use(life); });
 #pragma once
 
 #include <ros/node_handle.h>
@@ -11,22 +11,22 @@
 #include <mutex>
 #include <string>
 
-#include "ros/driving/map_life.h"
+#include "ros/driving/map_liveness.h"
 #include "ros/driving/publisher_watch.h"
 #include "ros/input/foreign_rules.h"
 #include "ros/input/map_receiver.h"
 
 namespace grid_path_planner::nodes {
 
-class MapWatch {
+class MapMonitor {
  public:
-  using Listener = std::function<void(const MapLife&)>;
+  using Listener = std::function<void(const MapLiveness&)>;
 
   // `listener` is called with every sign of life, in the thread of `nh` or in one of this.
-  MapWatch(const ros::NodeHandle& nh, Listener listener);
-  ~MapWatch();
+  MapMonitor(const ros::NodeHandle& nh, Listener listener);
+  ~MapMonitor();
 
-  MapLife life() const;
+  MapLiveness life() const;
   // As MapFit::problem() of the newest map. Of one thread.
   std::string misfit(const grid::OccupancyThresholds& thresholds) {
     return map_fit_.problem(life().map.grid, thresholds);
@@ -46,7 +46,7 @@ class MapWatch {
   MapFit map_fit_;
 
   mutable std::mutex mutex_;
-  MapLife life_;
+  MapLiveness life_;
   std::unique_ptr<PublisherWatch> publisher_;
 };
 

@@ -1,4 +1,4 @@
-#include "ros/driving/map_life.h"
+#include "ros/driving/map_liveness.h"
 
 #include "grid_path_planner/base/decimal_text.h"
 
@@ -8,7 +8,7 @@ std::string silenceText(double seconds) {
   return base::decimalText(static_cast<int>(seconds * 10.0) / 10.0) + " s";
 }
 
-std::string whyNoMap(const MapLife& life, const MapTimeouts& timeouts) {
+std::string whyNoMap(const MapLiveness& life, const MapTimeouts& timeouts) {
   if (!life.map.grid)
     return "no map has come on " + life.topic +
            " yet: the vehicle does not start without one (check_map:=false drives without a map)";

@@ -1,4 +1,4 @@
-#include "ros/input/given_goals.h"
+#include "ros/input/finished_goals.h"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@ nav_msgs::Path pathFor(double seconds) {
   return path;
 }
 
-TEST(GivenGoals, AGoalIsOverWithItsDriveAndOthersAreNot) {
-  GivenGoals goals;
+TEST(FinishedGoals, AGoalIsOverWithItsDriveAndOthersAreNot) {
+  FinishedGoals goals;
   EXPECT_FALSE(goals.isOver(pathFor(1)));
   goals.drive(pathFor(5));
   EXPECT_FALSE(goals.isOver(pathFor(5))) << "planned again meanwhile";
@@ -32,8 +32,8 @@ TEST(GivenGoals, AGoalIsOverWithItsDriveAndOthersAreNot) {
 }
 
 // A goal that is given while /clock stands is a nanosecond after the one before; the path for it is stamped with the time.
-TEST(GivenGoals, AnInstantIsNoOldTime) {
-  GivenGoals goals;
+TEST(FinishedGoals, AnInstantIsNoOldTime) {
+  FinishedGoals goals;
   goals.timeWentBack();
   nav_msgs::Path path = pathFor(2000);
   path.poses.back().header.stamp.nsec += 1;
@@ -41,8 +41,8 @@ TEST(GivenGoals, AnInstantIsNoOldTime) {
   EXPECT_TRUE(goals.isOver(pathFor(2001))) << "given before time went back";
 }
 
-TEST(GivenGoals, WhatWasAskedForBeforeSomebodyCancelledIsOver) {
-  GivenGoals goals;
+TEST(FinishedGoals, WhatWasAskedForBeforeSomebodyCancelledIsOver) {
+  FinishedGoals goals;
   goals.drive(pathFor(5));
   goals.endAllUntil(ros::Time(8));
   EXPECT_TRUE(goals.isOver(pathFor(5)));
@@ -50,8 +50,8 @@ TEST(GivenGoals, WhatWasAskedForBeforeSomebodyCancelledIsOver) {
   EXPECT_FALSE(goals.isOver(pathFor(9)));
 }
 
-TEST(GivenGoals, PathsOfOthersHaveNoTime) {
-  GivenGoals goals;
+TEST(FinishedGoals, PathsOfOthersHaveNoTime) {
+  FinishedGoals goals;
   goals.drive(pathFor(0));
   goals.end();
   goals.endAllUntil(ros::TIME_MAX);
@@ -60,8 +60,8 @@ TEST(GivenGoals, PathsOfOthersHaveNoTime) {
 }
 
 // Somebody republishes what was recorded, or times from the beginning of a trajectory.
-TEST(GivenGoals, TimesOfATrajectoryAreNoGoals) {
-  GivenGoals goals;
+TEST(FinishedGoals, TimesOfATrajectoryAreNoGoals) {
+  FinishedGoals goals;
   nav_msgs::Path trajectory = pathFor(9);
   trajectory.poses.front().header.stamp = ros::Time(8);
   nav_msgs::Path ahead = pathFor(3000);
@@ -74,21 +74,21 @@ TEST(GivenGoals, TimesOfATrajectoryAreNoGoals) {
 }
 
 // A test gave a goal right after ~cancel, and the planner's /clock was a step behind the driver's.
-TEST(GivenGoals, AGoalOfTheMomentOfACancelIsANewOne) {
-  GivenGoals goals;
+TEST(FinishedGoals, AGoalOfTheMomentOfACancelIsANewOne) {
+  FinishedGoals goals;
   goals.drive(pathFor(7.9));
   goals.endAllUntil(ros::Time(8));
   EXPECT_FALSE(goals.isOver(pathFor(7.95))) << "clocks differ";
   EXPECT_TRUE(goals.isOver(pathFor(7.9))) << "it was driven";
-  GivenGoals at_the_beginning;
+  FinishedGoals at_the_beginning;
   at_the_beginning.endAllUntil(ros::Time(0.1));
   EXPECT_FALSE(at_the_beginning.isOver(pathFor(0.05)));
 }
 
 // A bag that began anew revived goals that were over: the vehicle set off for a goal that it had reached.
 // A time of /clock may have more than 999,999,999 ns, and then be beyond the last that there is: roscpp throws.
-TEST(GivenGoals, ACancelAtATimeBeyondTheLastCounts) {
-  GivenGoals goals;
+TEST(FinishedGoals, ACancelAtATimeBeyondTheLastCounts) {
+  FinishedGoals goals;
   goals.drive(pathFor(5));
   ros::Time now;
   now.sec = now.nsec = ~0U;
@@ -97,8 +97,8 @@ TEST(GivenGoals, ACancelAtATimeBeyondTheLastCounts) {
   EXPECT_TRUE(goals.isOver(pathFor(7)));
 }
 
-TEST(GivenGoals, WhatIsFromBeforeTimeWentBackIsOver) {
-  GivenGoals goals;
+TEST(FinishedGoals, WhatIsFromBeforeTimeWentBackIsOver) {
+  FinishedGoals goals;
   goals.drive(pathFor(5));
   goals.timeWentBack();
   EXPECT_TRUE(goals.isOver(pathFor(5))) << "its drive ended";

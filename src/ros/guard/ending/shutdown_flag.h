@@ -1,6 +1,6 @@
 // Tells work that a node waits for, above all reading a file, that the node is to end.
 //
-//   const EndOfNode end;
+//   const ShutdownFlag end;
 //   readWorld(file, {read_options, end.token()});    // gives up on SIGTERM, rosnode kill, unload by shutdown
 //
 // A node's main thread and a nodelet's onInit look at no signal while they wait; a thread of this looks
@@ -14,13 +14,13 @@
 
 namespace grid_path_planner::nodes {
 
-class EndOfNode {
+class ShutdownFlag {
  public:
   // `stop` is cancelled then; whoever has it may cancel it before.
-  explicit EndOfNode(base::StopSource stop = {});
-  ~EndOfNode();
-  EndOfNode(const EndOfNode&) = delete;
-  EndOfNode& operator=(const EndOfNode&) = delete;
+  explicit ShutdownFlag(base::StopSource stop = {});
+  ~ShutdownFlag();
+  ShutdownFlag(const ShutdownFlag&) = delete;
+  ShutdownFlag& operator=(const ShutdownFlag&) = delete;
 
   base::StopToken token() const { return stop_.token(); }
 

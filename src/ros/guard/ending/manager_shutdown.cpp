@@ -1,4 +1,4 @@
-#include "ros/guard/ending/manager_end.h"
+#include "ros/guard/ending/manager_shutdown.h"
 
 #include <semaphore.h>
 #include <unistd.h>
@@ -157,12 +157,12 @@ class EndWatch {
   std::optional<ShutdownMethod> method_;
 };
 
-ManagerEnd::ManagerEnd(std::function<void()> stop)
+ManagerShutdown::ManagerShutdown(std::function<void()> stop)
     : stop_(std::move(stop)), watch_(EndWatch::shared()) {
   watch_->add(stop_);
 }
 
-ManagerEnd::~ManagerEnd() {
+ManagerShutdown::~ManagerShutdown() {
   watch_->remove(stop_);
   EndWatch::release(watch_);
 }

@@ -1,7 +1,7 @@
 // Which goals of the topic `path` the vehicle still drives for: a drive that is over is not begun
 // again by itself when a path for its goal is planned anew.
 //
-//   GivenGoals goals;
+//   FinishedGoals goals;
 //   const nav_msgs::Path path;
 //   if (!goals.isOver(path)) goals.drive(path);
 //   goals.end();                                 // arrived
@@ -18,7 +18,7 @@
 
 namespace grid_path_planner::nodes {
 
-class GivenGoals {
+class FinishedGoals {
  public:
   // `path` is driven from now on.
   void drive(const nav_msgs::Path& path);

@@ -1,4 +1,4 @@
-#include "ros/guard/master/end_without_master.h"
+#include "ros/guard/master/shutdown_timeout.h"
 
 #include <pthread.h>
 #include <unistd.h>
@@ -42,13 +42,13 @@ bool masterAnswers() noexcept {
 
 }  // namespace
 
-EndWithoutMaster::EndWithoutMaster(std::string name, std::function<bool()> asked)
+ShutdownTimeout::ShutdownTimeout(std::string name, std::function<bool()> asked)
     : name_(std::move(name)),
       asked_(std::move(asked)),
       main_thread_(::pthread_self()),
       thread_([this] { run(); }) {}
 
-EndWithoutMaster::~EndWithoutMaster() {
+ShutdownTimeout::~ShutdownTimeout() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_over_ = true;
@@ -57,12 +57,12 @@ EndWithoutMaster::~EndWithoutMaster() {
   thread_.join();
 }
 
-bool EndWithoutMaster::isOverWithin(double seconds) {
+bool ShutdownTimeout::isOverWithin(double seconds) {
   std::unique_lock<std::mutex> lock(mutex_);
   return over_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return is_over_; });
 }
 
-void EndWithoutMaster::run() {
+void ShutdownTimeout::run() {
   while (!asked_())
     if (isOverWithin(kPeriod)) return;
   if (isOverWithin(kAskedAfter)) return;
@@ -76,11 +76,11 @@ void EndWithoutMaster::run() {
   ::_exit(0);
 }
 
-LastWork::LastWork() {
+ShutdownBlocker::ShutdownBlocker() {
   ++unfinished;
 }
 
-LastWork::~LastWork() {
+ShutdownBlocker::~ShutdownBlocker() {
   --unfinished;
 }
 

@@ -1,6 +1,6 @@
 // A process that was asked to end while nobody answers at its master's address ended within 2 s as it was: what it was writing was
 // lost. Here each process is a child of the test.
-#include "ros/guard/master/end_without_master.h"
+#include "ros/guard/master/shutdown_timeout.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -25,7 +25,7 @@ int endOf(const std::function<void()>& work) {
   if (child == 0) {
     ::alarm(kMostSeconds);
     ::setenv("ROS_MASTER_URI", "http://127.0.0.1:1", 1);
-    const EndWithoutMaster limit("a node", [] { return true; });
+    const ShutdownTimeout limit("a node", [] { return true; });
     work();
     ::_exit(kDone);
   }
@@ -34,21 +34,21 @@ int endOf(const std::function<void()>& work) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(EndWithoutMaster, EndsAProcessThatWaits) {
+TEST(ShutdownTimeout, EndsAProcessThatWaits) {
   EXPECT_EQ(endOf([] { std::this_thread::sleep_for(std::chrono::seconds(kMostSeconds)); }), 0);
 }
 
-TEST(EndWithoutMaster, LetsTheLastWorkBeDone) {
+TEST(ShutdownTimeout, LetsTheLastWorkBeDone) {
   EXPECT_EQ(endOf([] {
-              const LastWork work;
+              const ShutdownBlocker work;
               std::this_thread::sleep_for(kLongWork);
             }),
             kDone);
 }
 
-TEST(EndWithoutMaster, EndsAProcessThatWaitsAfterIt) {
+TEST(ShutdownTimeout, EndsAProcessThatWaitsAfterIt) {
   EXPECT_EQ(endOf([] {
-              { const LastWork work; }
+              { const ShutdownBlocker work; }
               std::this_thread::sleep_for(std::chrono::seconds(kMostSeconds));
             }),
             0);

@@ -1,4 +1,4 @@
-#include "ros/guard/ending/end_of_node.h"
+#include "ros/guard/ending/shutdown_flag.h"
 
 #include <ros/init.h>
 
@@ -9,7 +9,7 @@
 
 namespace grid_path_planner::nodes {
 
-EndOfNode::EndOfNode(base::StopSource stop) : stop_(std::move(stop)) {
+ShutdownFlag::ShutdownFlag(base::StopSource stop) : stop_(std::move(stop)) {
   watch_ = std::thread([this] {
     while (!over_) {
       if (nodeIsToEnd() || ros::isShuttingDown()) stop_.cancel();
@@ -18,7 +18,7 @@ EndOfNode::EndOfNode(base::StopSource stop) : stop_(std::move(stop)) {
   });
 }
 
-EndOfNode::~EndOfNode() {
+ShutdownFlag::~ShutdownFlag() {
   over_ = true;
   watch_.join();
 }

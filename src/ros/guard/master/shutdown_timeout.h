@@ -1,6 +1,6 @@
 // Ends a process that was asked to end while its master answers nobody.
 //
-//   const EndWithoutMaster limit("path_planner", [] { return isAskedToEnd(); });
+//   const ShutdownTimeout limit("path_planner", [] { return isAskedToEnd(); });
 //
 // roscpp gives every topic and service back to the master, one by one, and waits for each answer for
 // as long as there is a connection: where the master is stopped, or so busy that it takes half a
@@ -23,13 +23,13 @@
 
 namespace grid_path_planner::nodes {
 
-class EndWithoutMaster {
+class ShutdownTimeout {
  public:
   // Made by the main thread. `asked`: whether the process is to end. Called from a thread, ten times a second.
-  EndWithoutMaster(std::string name, std::function<bool()> asked);
-  ~EndWithoutMaster();
-  EndWithoutMaster(const EndWithoutMaster&) = delete;
-  EndWithoutMaster& operator=(const EndWithoutMaster&) = delete;
+  ShutdownTimeout(std::string name, std::function<bool()> asked);
+  ~ShutdownTimeout();
+  ShutdownTimeout(const ShutdownTimeout&) = delete;
+  ShutdownTimeout& operator=(const ShutdownTimeout&) = delete;
 
  private:
   void run();
@@ -45,12 +45,12 @@ class EndWithoutMaster {
 };
 
 // While one lives, the process does not end so: a file is being written.
-class LastWork {
+class ShutdownBlocker {
  public:
-  LastWork();
-  ~LastWork();
-  LastWork(const LastWork&) = delete;
-  LastWork& operator=(const LastWork&) = delete;
+  ShutdownBlocker();
+  ~ShutdownBlocker();
+  ShutdownBlocker(const ShutdownBlocker&) = delete;
+  ShutdownBlocker& operator=(const ShutdownBlocker&) = delete;
 };
 
 }  // namespace grid_path_planner::nodes

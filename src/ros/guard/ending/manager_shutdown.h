@@ -1,6 +1,6 @@
 // What a nodelet does before its manager ends.
 //
-//   const ManagerEnd end([] { stopVehicle(); });
+//   const ManagerShutdown end([] { stopVehicle(); });
 //
 // The manager is another package's program: at SIGINT, and where its XML-RPC method `shutdown` is called (`rosnode kill`,
 // another node of its name), roscpp closes all connections before any nodelet hears of it, and SIGTERM ends the process
@@ -18,14 +18,14 @@ namespace grid_path_planner::nodes {
 
 class EndWatch;
 
-class ManagerEnd {
+class ManagerShutdown {
  public:
   // `stop` is called in another thread, at most once.
-  explicit ManagerEnd(std::function<void()> stop);
+  explicit ManagerShutdown(std::function<void()> stop);
   // Waits for a `stop` that runs.
-  ~ManagerEnd();
-  ManagerEnd(const ManagerEnd&) = delete;
-  ManagerEnd& operator=(const ManagerEnd&) = delete;
+  ~ManagerShutdown();
+  ManagerShutdown(const ManagerShutdown&) = delete;
+  ManagerShutdown& operator=(const ManagerShutdown&) = delete;
 
  private:
   const std::function<void()> stop_;

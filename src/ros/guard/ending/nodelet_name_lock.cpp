@@ -1,4 +1,4 @@
-#include "ros/guard/ending/held_name.h"
+#include "ros/guard/ending/nodelet_name_lock.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -24,13 +24,13 @@ HeldNames& held() {
 
 }  // namespace
 
-HeldName::HeldName(std::string name) : name_(std::move(name)) {
+NodeletNameLock::NodeletNameLock(std::string name) : name_(std::move(name)) {
   std::unique_lock<std::mutex> lock(held().mutex);
   held().released.wait_for(lock, kTimeout, [this] { return held().names.count(name_) == 0; });
   held().names.insert(name_);
 }
 
-HeldName::~HeldName() {
+NodeletNameLock::~NodeletNameLock() {
   {
     const std::lock_guard<std::mutex> lock(held().mutex);
     held().names.erase(held().names.find(name_));

@@ -1,6 +1,6 @@
 // A vehicle that a nodelet commanded drove on when its manager got a signal or was asked to end: roscpp closes the
 // connections before the nodelet hears of it, and SIGTERM ends a manager at once. Here each manager is a child of the test.
-#include "ros/guard/ending/manager_end.h"
+#include "ros/guard/ending/manager_shutdown.h"
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -74,12 +74,12 @@ void waitForEver() {
   for (;;) ::pause();
 }
 
-TEST(ManagerEnd, AllStopBeforeTheSignalEndsTheManager) {
+TEST(ManagerShutdown, AllStopBeforeTheSignalEndsTheManager) {
   for (const int number : {SIGINT, SIGTERM}) {
     Manager manager([](const Manager::Say& say) {
-      const ManagerEnd one([&] { say('a'); });
-      const ManagerEnd throws([] { throw std::string("nobody catches this"); });
-      const ManagerEnd other([&] { say('b'); });
+      const ManagerShutdown one([&] { say('a'); });
+      const ManagerShutdown throws([] { throw std::string("nobody catches this"); });
+      const ManagerShutdown other([&] { say('b'); });
       say('.');
       waitForEver();
     });
@@ -93,14 +93,14 @@ TEST(ManagerEnd, AllStopBeforeTheSignalEndsTheManager) {
 
 Manager::Say says;
 
-TEST(ManagerEnd, WhoeverHandledTheSignalBeforeGetsIt) {
+TEST(ManagerShutdown, WhoeverHandledTheSignalBeforeGetsIt) {
   Manager manager([](const Manager::Say& say) {
     says = say;
     ::signal(SIGINT, [](int) {
       says('h');
       endAtOnce();
     });
-    const ManagerEnd end([&] { say('s'); });
+    const ManagerShutdown end([&] { say('s'); });
     say('.');
     waitForEver();
   });
@@ -111,9 +111,9 @@ TEST(ManagerEnd, WhoeverHandledTheSignalBeforeGetsIt) {
   EXPECT_EQ(manager.endedBy(), 0);
 }
 
-TEST(ManagerEnd, TheSecondSignalIsNotHeldUp) {
+TEST(ManagerShutdown, TheSecondSignalIsNotHeldUp) {
   Manager manager([](const Manager::Say& say) {
-    const ManagerEnd end([&] {
+    const ManagerShutdown end([&] {
       say('s');
       waitForEver();
     });
@@ -127,10 +127,10 @@ TEST(ManagerEnd, TheSecondSignalIsNotHeldUp) {
   EXPECT_EQ(manager.endedBy(), SIGTERM);
 }
 
-TEST(ManagerEnd, OneThatIsIgnoredStaysSo) {
+TEST(ManagerShutdown, OneThatIsIgnoredStaysSo) {
   Manager manager([](const Manager::Say& say) {
     ::signal(SIGINT, SIG_IGN);
-    const ManagerEnd end([&] { say('s'); });
+    const ManagerShutdown end([&] { say('s'); });
     ::raise(SIGINT);
     say('.');
     waitForEver();
@@ -141,10 +141,10 @@ TEST(ManagerEnd, OneThatIsIgnoredStaysSo) {
   EXPECT_EQ(manager.endedBy(), SIGTERM);
 }
 
-TEST(ManagerEnd, SignalsAreGivenBackWithTheLast) {
+TEST(ManagerShutdown, SignalsAreGivenBackWithTheLast) {
   Manager manager([](const Manager::Say& say) {
     {
-      const ManagerEnd end([&] { say('s'); });
+      const ManagerShutdown end([&] { say('s'); });
     }
     say('.');
     waitForEver();
@@ -155,10 +155,10 @@ TEST(ManagerEnd, SignalsAreGivenBackWithTheLast) {
 }
 
 // Two threads make and end them: one made while the last one ended took that one's handler for the process's own.
-TEST(ManagerEnd, SignalsAreGivenBackHoweverManyComeAndGo) {
+TEST(ManagerShutdown, SignalsAreGivenBackHoweverManyComeAndGo) {
   Manager manager([](const Manager::Say& say) {
     const auto comeAndGo = [] {
-      for (int i = 0; i < 3000; ++i) const ManagerEnd end([] {});
+      for (int i = 0; i < 3000; ++i) const ManagerShutdown end([] {});
     };
     std::thread other(comeAndGo);
     comeAndGo();
@@ -171,13 +171,13 @@ TEST(ManagerEnd, SignalsAreGivenBackHoweverManyComeAndGo) {
 }
 
 // One of an earlier watch was passed on again when a later one ended.
-TEST(ManagerEnd, ASignalThatEndedNothingIsPassedOnOnce) {
+TEST(ManagerShutdown, ASignalThatEndedNothingIsPassedOnOnce) {
   Manager manager([](const Manager::Say& say) {
     says = say;
     ::signal(SIGINT, [](int) { says('h'); });
     std::promise<void> stopped;
     {
-      const ManagerEnd end([&] {
+      const ManagerShutdown end([&] {
         say('s');
         stopped.set_value();
       });
@@ -185,7 +185,7 @@ TEST(ManagerEnd, ASignalThatEndedNothingIsPassedOnOnce) {
       stopped.get_future().wait();
     }
     {
-      const ManagerEnd later([] {});
+      const ManagerShutdown later([] {});
     }
     say('.');
   });
@@ -220,11 +220,11 @@ ros::XMLRPCFunc saying(const Manager::Say& say, char letter) {
   };
 }
 
-TEST(ManagerEnd, AllStopBeforeARequestEndsTheManager) {
+TEST(ManagerShutdown, AllStopBeforeARequestEndsTheManager) {
   Manager manager([](const Manager::Say& say) {
     startXmlRpc(saying(say, 'r'));
-    const ManagerEnd one([&] { say('a'); });
-    const ManagerEnd other([&] { say('b'); });
+    const ManagerShutdown one([&] { say('a'); });
+    const ManagerShutdown other([&] { say('b'); });
     say(askToEnd() ? '.' : '!');
     waitForEver();
   });
@@ -235,10 +235,10 @@ TEST(ManagerEnd, AllStopBeforeARequestEndsTheManager) {
   EXPECT_EQ(heard, "abr");
 }
 
-TEST(ManagerEnd, TheSecondRequestIsNotHeldUpNorASignalAfterTheFirst) {
+TEST(ManagerShutdown, TheSecondRequestIsNotHeldUpNorASignalAfterTheFirst) {
   Manager manager([](const Manager::Say& say) {
     startXmlRpc(saying(say, 'r'));
-    const ManagerEnd end([&] {
+    const ManagerShutdown end([&] {
       say('s');
       waitForEver();
     });
@@ -252,10 +252,10 @@ TEST(ManagerEnd, TheSecondRequestIsNotHeldUpNorASignalAfterTheFirst) {
   EXPECT_EQ(manager.endedBy(), SIGTERM);
 }
 
-TEST(ManagerEnd, ARequestWithoutAReasonIsRoscppsToRefuse) {
+TEST(ManagerShutdown, ARequestWithoutAReasonIsRoscppsToRefuse) {
   Manager manager([](const Manager::Say& say) {
     startXmlRpc(saying(say, 'r'));
-    const ManagerEnd end([&] { say('s'); });
+    const ManagerShutdown end([&] { say('s'); });
     say(askToEnd(std::nullopt) ? '.' : '!');
     waitForEver();
   });
@@ -264,10 +264,10 @@ TEST(ManagerEnd, ARequestWithoutAReasonIsRoscppsToRefuse) {
 }
 
 // roscpp takes it for an empty one: it ended the manager before any nodelet had stopped its vehicle.
-TEST(ManagerEnd, AllStopBeforeARequestWithAReasonThatCannotBeRead) {
+TEST(ManagerShutdown, AllStopBeforeARequestWithAReasonThatCannotBeRead) {
   Manager manager([](const Manager::Say& say) {
     startXmlRpc(saying(say, 'r'));
-    const ManagerEnd end([&] { say('s'); });
+    const ManagerShutdown end([&] { say('s'); });
     askToEnd(XmlRpc::XmlRpcValue());
     waitForEver();
   });
@@ -275,10 +275,10 @@ TEST(ManagerEnd, AllStopBeforeARequestWithAReasonThatCannotBeRead) {
   EXPECT_EQ(manager.heard(), 'r');
 }
 
-TEST(ManagerEnd, TheMethodIsGivenBackWithTheLast) {
+TEST(ManagerShutdown, TheMethodIsGivenBackWithTheLast) {
   Manager manager([](const Manager::Say& say) {
     startXmlRpc(saying(say, 'r'));
-    for (int i = 0; i < 3; ++i) const ManagerEnd end([&] { say('s'); });
+    for (int i = 0; i < 3; ++i) const ManagerShutdown end([&] { say('s'); });
     say(askToEnd() ? '.' : '!');
     waitForEver();
   });
@@ -286,13 +286,13 @@ TEST(ManagerEnd, TheMethodIsGivenBackWithTheLast) {
   EXPECT_EQ(manager.heard(), '.');
 }
 
-TEST(ManagerEnd, ARequestWhileTheLastEndsIsNotLost) {
+TEST(ManagerShutdown, ARequestWhileTheLastEndsIsNotLost) {
   for (int i = 0; i < 20; ++i) {
     Manager manager([](const Manager::Say& say) {
       startXmlRpc(saying(say, 'r'));
       std::thread asks;
       {
-        const ManagerEnd end([] {});
+        const ManagerShutdown end([] {});
         asks = std::thread([&] {
           while (!askToEnd()) {
           }

@@ -1,4 +1,4 @@
-#include "ros/driving/map_watch.h"
+#include "ros/driving/map_monitor.h"
 
 #include <utility>
 
@@ -11,7 +11,8 @@ constexpr double kMasterPatience = 1.0;  // s, for what it says of the publisher
 
 }  // namespace
 
-MapWatch::MapWatch(const ros::NodeHandle& nh, Listener listener) : listener_(std::move(listener)) {
+MapMonitor::MapMonitor(const ros::NodeHandle& nh, Listener listener)
+    : listener_(std::move(listener)) {
   receiver_.start(
       nh, [this](const MapChange&) { onMap(); }, [this] { onHeartbeat(); });
   {
@@ -23,39 +24,39 @@ MapWatch::MapWatch(const ros::NodeHandle& nh, Listener listener) : listener_(std
       [this] { return whom(); }, [this](const std::string& node) { onAnswer(node); }});
 }
 
-MapWatch::~MapWatch() {
+MapMonitor::~MapMonitor() {
   receiver_.shutdown();
   publisher_.reset();
 }
 
-MapLife MapWatch::life() const {
+MapLiveness MapMonitor::life() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return life_;
 }
 
-void MapWatch::tell() {
+void MapMonitor::tell() {
   const std::lock_guard<std::mutex> lock(telling_);
   listener_(life());
 }
 
-void MapWatch::noteLoss() {
+void MapMonitor::noteLoss() {
   life_.lost = receiver_.lost();
   life_.lost_since = receiver_.lostSince();
 }
 
-void MapWatch::onMap() {
+void MapMonitor::onMap() {
   ReceivedMap map = receiver_.latest();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     noteLoss();
     if (map.publisher != life_.map.publisher) life_.of_file.reset();
     life_.map = std::move(map);
-    if (life_.map.sender == life_.map.publisher) life_.sign = life_.map.received;
+    if (life_.map.sender == life_.map.publisher) life_.last_heard = life_.map.received;
   }
   tell();
 }
 
-void MapWatch::onHeartbeat() {
+void MapMonitor::onHeartbeat() {
   const auto heartbeat = receiver_.heartbeat();
   const MapData data = receiver_.latest().data;
   {
@@ -63,19 +64,19 @@ void MapWatch::onHeartbeat() {
     noteLoss();
     if (heartbeat->publisher != life_.map.publisher) return;
     life_.map.data = data;
-    life_.sign = heartbeat->received;
+    life_.last_heard = heartbeat->received;
   }
   tell();
 }
 
 // The publisher of a map without a heartbeat.
-std::string MapWatch::whom() const {
+std::string MapMonitor::whom() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return life_.map.grid && !life_.map.data.beats() ? life_.map.publisher : "";
 }
 
-void MapWatch::onAnswer(const std::string& node) {
-  const MapLife before = life();
+void MapMonitor::onAnswer(const std::string& node) {
+  const MapLiveness before = life();
   const auto of_file = before.map.publisher == node && before.of_file
                            ? before.of_file
                            : offersService(node, "static_map", kMasterPatience);
@@ -83,7 +84,7 @@ void MapWatch::onAnswer(const std::string& node) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (life_.map.publisher != node) return;
     life_.of_file = of_file;
-    life_.sign = std::chrono::steady_clock::now();
+    life_.last_heard = std::chrono::steady_clock::now();
   }
   tell();
 }

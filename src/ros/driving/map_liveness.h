@@ -35,7 +35,7 @@ class DrivenTime {
   double seconds_ = 0.0;
 };
 
-struct MapLife {
+struct MapLiveness {
   std::string topic;  // resolved
   ReceivedMap map;    // its grid is null before the first
   // Whether its publisher offers it by the service static_map, as map_server and map_publisher do: no other one is expected.
@@ -43,11 +43,11 @@ struct MapLife {
   std::optional<bool> of_file;
   DrivenTime driven;  // since map.data.changes() changed
   // The last map, piece, heartbeat or, without heartbeats, answer of the publisher; pieces of others are none.
-  std::chrono::steady_clock::time_point sign;
+  std::chrono::steady_clock::time_point last_heard;
   std::string lost;  // why the map lacks changes; empty where it does not
   std::optional<std::chrono::steady_clock::time_point> lost_since;
 
-  double silence() const { return base::secondsSince(sign); }
+  double silence() const { return base::secondsSince(last_heard); }
 };
 
 struct MapTimeouts {
@@ -55,6 +55,6 @@ struct MapTimeouts {
 };
 
 // Why the vehicle must not be driven by it, in a sentence; empty where it may.
-std::string whyNoMap(const MapLife& life, const MapTimeouts& timeouts);
+std::string whyNoMap(const MapLiveness& life, const MapTimeouts& timeouts);
 
 }  // namespace grid_path_planner::nodes

@@ -1,6 +1,6 @@
 // What the status of an action says of a client's goals.
 //
-//   const SeenGoals seen = seenGoals(status, {"/go_to_pose-calls-", id});
+//   const GoalsOfStatus seen = seenGoals(status, {"/go_to_pose-calls-", id});
 //   if (seen.own_is_over) waitForResult();
 #pragma once
 
@@ -18,7 +18,7 @@ struct GoalNames {
   std::string id;    // the one that goes on; "" without one
 };
 
-struct SeenGoals {
+struct GoalsOfStatus {
   bool own = false;  // the status has the goal that goes on
   bool own_is_over = false;
   std::vector<std::string>
@@ -31,11 +31,12 @@ inline bool isGoalOver(const actionlib_msgs::GoalStatus& status) {
          status.status != GoalStatus::PREEMPTING && status.status != GoalStatus::RECALLING;
 }
 
-inline SeenGoals seenGoals(const actionlib_msgs::GoalStatusArray& message, const GoalNames& names) {
+inline GoalsOfStatus seenGoals(const actionlib_msgs::GoalStatusArray& message,
+                               const GoalNames& names) {
   const auto beginsWith = [](const std::string& text, const std::string& beginning) {
     return text.compare(0, beginning.size(), beginning) == 0;
   };
-  SeenGoals seen;
+  GoalsOfStatus seen;
   for (const actionlib_msgs::GoalStatus& status : message.status_list) {
     const std::string& id = status.goal_id.id;
     if (!names.id.empty() && id == names.id) {

@@ -1,4 +1,4 @@
-#include "ros/input/given_goals.h"
+#include "ros/input/finished_goals.h"
 
 #include <algorithm>
 #include <utility>
@@ -30,27 +30,27 @@ ros::Time goalTime(const nav_msgs::Path& path, bool may_be_ahead) {
 
 }  // namespace
 
-void GivenGoals::drive(const nav_msgs::Path& path) {
+void FinishedGoals::drive(const nav_msgs::Path& path) {
   driven_ = goalTime(path, went_back_);
 }
 
-void GivenGoals::end() {
+void FinishedGoals::end() {
   if (!driven_.isZero()) ended_ = std::exchange(driven_, ros::Time());
 }
 
-void GivenGoals::endAllUntil(const ros::Time& now) {
+void FinishedGoals::endAllUntil(const ros::Time& now) {
   end();
   if (now.toSec() > kClocksDiffer.toSec())
     until_ = std::max(until_, normalized(now) - kClocksDiffer);
 }
 
-void GivenGoals::timeWentBack() {
+void FinishedGoals::timeWentBack() {
   end();
   until_ = ros::TIME_MIN + ros::Duration(0, 1);
   went_back_ = true;
 }
 
-bool GivenGoals::isOver(const nav_msgs::Path& path) const {
+bool FinishedGoals::isOver(const nav_msgs::Path& path) const {
   const ros::Time given = goalTime(path, went_back_);
   const bool of_old_time = secondsBetween(path.header.stamp, given) > kInstant;
   return !given.isZero() && (given == ended_ || given < until_ || of_old_time);
