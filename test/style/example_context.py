@@ -382,7 +382,8 @@ CONTEXT = {
     "navigation_sensors.h": "extern NavigationSensorOptions options; extern std::shared_ptr<const World> world;"
                             "extern Vehicle vehicle;",
     "sensor_publisher.h": """extern ros::NodeHandle nh; extern simulation::NavigationSensorOptions sensor_options;
-        extern simulation::SensorReadings readings; extern SensorFrameNames frames;
+        extern std::shared_ptr<const simulation::World> world; extern std::vector<simulation::SensorFault> faults;
+        extern simulation::Vehicle vehicle; extern SensorFrameNames frames;
         extern std::function<ros::Time(std::int64_t)> stamp_of;""",
     "vehicle.h": "extern VehicleOptions options; extern std::shared_ptr<const World> world;",
     "path_hash.h": "extern Planner& planner; extern SearchRequest request;",

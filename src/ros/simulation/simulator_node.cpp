@@ -101,11 +101,11 @@ SimulatorNode::SimulatorNode(ros::NodeHandle& nh, ros::NodeHandle& private_nh,
       options_(loadOptions(private_nh, files)),
       vehicle_(std::make_unique<Vehicle>(options_.vehicle, initialState(options_))),
       odometry_(options_.odometry),
-      world_(loadWorld(options_, files)),
-      faults_(loadFaults(options_, files)),
       clock_(nh, options_),
       vehicle_publisher_(nh),
       contact_publisher_(nh),
+      world_(loadWorld(options_, files)),
+      faults_(loadFaults(options_, files)),
       sensor_publisher_(nh, options_.sensors, world_, faults_) {
   odometry_.reset(vehicle_->state());
   if (world_) {

@@ -86,13 +86,14 @@ class SimulatorNode {
   SimulatorOptions options_;
   std::unique_ptr<simulation::Vehicle> vehicle_;
   simulation::DeadReckoning odometry_;
-  std::shared_ptr<const simulation::World> world_;  // none: only the map's obstacles
-  std::vector<simulation::SensorFault> faults_;     // of sensors and image camera
-  SimulatorClock clock_;
   ros::SteadyTime commanded_at_;
 
+  // Advertised before the world is read: who listens is connected by the first tick, and has the time that it is of.
+  SimulatorClock clock_;
   VehiclePublisher vehicle_publisher_;
   ContactPublisher contact_publisher_;
+  std::shared_ptr<const simulation::World> world_;      // none: only the map's obstacles
+  std::vector<simulation::SensorFault> faults_;         // of sensors and image camera
   std::unique_ptr<DepthCameraPublisher> camera_;        // with a world
   std::unique_ptr<ImageCameraPublisher> image_camera_;  // where enabled
   SensorPublisher sensor_publisher_;
