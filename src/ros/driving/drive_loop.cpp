@@ -333,9 +333,11 @@ void DriveLoop::hand(std::vector<DriveReport> reports) {
   {
     const std::lock_guard<std::mutex> lock(reports_mutex_);
     for (DriveReport& report : reports) reports_.push_back(std::move(report));
-    if (std::exchange(reports_told_, true)) return;
+    if (reports_told_) return;
   }
-  callbacks_.on_report();
+  callbacks_.on_report();  // which may throw: then the next report tells of this one, too
+  const std::lock_guard<std::mutex> lock(reports_mutex_);
+  reports_told_ = !reports_.empty();
 }
 
 DriveStanding DriveLoop::standingNow() const {

@@ -125,6 +125,7 @@ void LayerInputs::update() {
 
 void LayerInputs::take(LayerSource& source, const ros::Time& stamp,
                        const std::function<void()>& work) {
+  source.refuse("it could not be laid");  // whatever ends it, until it is
   try {
     work();
     source.accept(stamp);

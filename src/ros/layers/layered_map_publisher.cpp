@@ -1,5 +1,7 @@
 #include "ros/layers/layered_map_publisher.h"
 
+#include <utility>
+
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/guard/outgoing/latched_message.h"
 
@@ -14,9 +16,11 @@ LayeredMapPublisher::LayeredMapPublisher(ros::NodeHandle nh)
 
 void LayeredMapPublisher::publish(LayeredMap& map, const std::string& frame_id,
                                   const ros::Time& newest, double full_map_period) {
-  if (map.takeNewSpeedLimits())
+  owes_limits_ = map.takeNewSpeedLimits() || owes_limits_;
+  if (owes_limits_)
     publishLatched(speed_limits_,
                    occupancyToMessage(map.speedLimits(), frame_id, ros::Time::now()));
+  owes_limits_ = false;
   if (topic_.hasSubscribers())
     publishMap(map, frame_id, newest, full_map_period);
   else
@@ -25,9 +29,10 @@ void LayeredMapPublisher::publish(LayeredMap& map, const std::string& frame_id,
 
 void LayeredMapPublisher::publishMap(LayeredMap& map, const std::string& frame_id,
                                      const ros::Time& newest, double full_map_period) {
+  const bool owed = !std::exchange(sent_, false);  // true, too, where an error ended the last
   const bool new_geometry = map.takeNewGeometry();
   const std::vector<CellRect> changed = map.takeChanged();
-  const bool whole = topic_.takeNewSubscriber() || new_geometry || !sent_ ||
+  const bool whole = topic_.takeNewSubscriber() || new_geometry || owed ||
                      topic_.wholeMapIsDue(full_map_period) ||
                      (!changed.empty() && topic_.needsWholeMaps());
   if (whole || !changed.empty()) {

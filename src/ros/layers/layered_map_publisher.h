@@ -34,7 +34,8 @@ class LayeredMapPublisher {
 
   MapTopic topic_;
   ros::Publisher speed_limits_;
-  bool sent_ = false;  // a map that still holds
+  bool owes_limits_ = false;  // they were taken from the map and not sent
+  bool sent_ = false;         // a map that still holds
 };
 
 }  // namespace grid_path_planner::nodes

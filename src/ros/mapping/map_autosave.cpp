@@ -148,7 +148,7 @@ void MapAutosave::write(const std::string& file, const std::string& text,
     std::error_code ignored;  // shows in the writing
     std::filesystem::create_directories(folder_, ignored);
     writeFileAtomically(file, text);
-  } catch (const InputError& error) {
+  } catch (const std::exception& error) {  // without memory, too: it is not in the file
     problem = error.what();
     noteProblem(problem);
   }

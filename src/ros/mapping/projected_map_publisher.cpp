@@ -24,8 +24,9 @@ ProjectedMapPublisher::ProjectedMapPublisher(ros::NodeHandle nh, bool latch,
 void ProjectedMapPublisher::publish(MapModel& map, const ros::Time& now) {
   if (!topic_.hasSubscribers()) return;
   newest_cloud_ = std::min(newest_cloud_, now);  // ROS time went back
-  send(map, now, owes_map_);
-  owes_map_ = false;
+  const bool torn = std::exchange(torn_, true);  // an error ended the last
+  send(map, now, owes_map_ || torn);
+  owes_map_ = torn_ = false;
   newest_published_cloud_ = newest_cloud_;
 }
 
@@ -69,7 +70,7 @@ void ProjectedMapPublisher::countCloud(const ros::Time& stamp, const ros::Time& 
 }
 
 void ProjectedMapPublisher::publishHeartbeat(const std::string& frame_id) {
-  if (!owes_map_) topic_.sendHeartbeat(updateOf({}, frame_id, newest_published_cloud_));
+  if (!owes_map_ && !torn_) topic_.sendHeartbeat(updateOf({}, frame_id, newest_published_cloud_));
 }
 
 }  // namespace grid_path_planner::nodes

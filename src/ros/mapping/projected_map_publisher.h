@@ -58,6 +58,7 @@ class ProjectedMapPublisher {
 
   bool sent_ = false;                  // a whole map
   std::atomic<bool> owes_map_{false};  // a whole one, since what was to be sent last was not
+  bool torn_ = false;                  // changes were taken from the map and not sent
   bool warned_of_floor_ = false;
   ros::Time newest_cloud_;            // in the tree
   ros::Time newest_published_cloud_;  // in the map as it was published last

@@ -42,8 +42,6 @@ using planning::remainingPath;
 using planning::ViaPlan;
 using planning::ViaRequest;
 
-namespace {}  // namespace
-
 PlanningLane::PlanningLane(const MapReceiver& maps, std::shared_ptr<MapStore> store,
                            const FrameTransforms& transforms, const PlanningLane* other)
     : maps_(maps),

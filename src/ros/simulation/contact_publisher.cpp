@@ -15,7 +15,7 @@ ContactPublisher::ContactPublisher(ros::NodeHandle& nh)
       name_publisher_(nh.advertise<std_msgs::String>("contact", 1, true)) {}
 
 void ContactPublisher::update(const Vehicle& vehicle) {
-  if (hasStarted() && published_ != vehicle.contacts()) start(vehicle);
+  if (published_ >= 0 && published_ != vehicle.contacts()) start(vehicle);
 }
 
 void ContactPublisher::start(const Vehicle& vehicle) {

@@ -20,7 +20,6 @@ class ContactPublisher {
 
   // After the obstacles were set or replaced: publishes the present contacts.
   void start(const simulation::Vehicle& vehicle);
-  bool hasStarted() const { return published_ >= 0; }
   // Publishes contacts since the last call.
   void update(const simulation::Vehicle& vehicle);
 

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "grid_path_planner/SimulatorConfig.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
@@ -198,7 +199,7 @@ void SimulatorNode::onMap(const MapEvent& event) {
     const auto map = std::make_shared<OccupancyGrid>(occupancyFromMessage(message));
     tellTraits(event);
     vehicle_->setMap(map);
-    if (!contact_publisher_.hasStarted()) warnOfStart(*map, vehicle_->state(), options_);
+    if (!std::exchange(has_map_, true)) warnOfStart(*map, vehicle_->state(), options_);
     contact_publisher_.start(*vehicle_);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("projected_map refused, the one before stays: " << error.what());

@@ -87,8 +87,9 @@ class SimulatorNode {
   std::unique_ptr<simulation::Vehicle> vehicle_;
   simulation::DeadReckoning odometry_;
   ros::SteadyTime commanded_at_;
+  bool has_map_ = false;
 
-  // Advertised before the world is read: who listens is connected by the first tick, and has the time that it is of.
+  // Advertised before the world is read, which takes a while: who listens has time to connect before the first tick.
   SimulatorClock clock_;
   VehiclePublisher vehicle_publisher_;
   ContactPublisher contact_publisher_;

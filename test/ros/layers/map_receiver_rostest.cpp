@@ -5,7 +5,9 @@
 #include <ros/callback_queue.h>
 
 #include <atomic>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grid_path_planner/ros/occupancy_conversion.h"
@@ -44,7 +46,10 @@ class MapReceiverTest : public testing::Test {
         "projected_map_updates", 10, {}, {}, {}, nullptr);
     numbered.has_header = false;  // header.seq is the test's
     updates_ = nh_.advertise(numbered);
-    receiver_.start(nh, [](const MapChange&) {});
+    receiver_.start(nh, [this](const MapChange& change) {
+      if (std::exchange(fails_, false)) throw std::runtime_error("the listener has no memory");
+      if (!change.changed) ++wholes_;
+    });
     EXPECT_TRUE(test::waitFor([&] { return links_ > 0 && updates_.getNumSubscribers() > 0; }));
   }
   ~MapReceiverTest() override { receiver_.shutdown(); }
@@ -91,6 +96,8 @@ class MapReceiverTest : public testing::Test {
   ros::Publisher updates_;
   std::uint32_t number_ = 0;
   int beats_ = 0;
+  bool fails_ = false;  // the listener, once
+  int wholes_ = 0;      // whole maps that it was told of
   ros::CallbackQueue queue_;
   GuardedQueue guarded_{queue_};
   MapReceiver receiver_;
@@ -240,6 +247,20 @@ TEST_F(MapReceiverTest, AnUpdateWithoutAStampCountsInTheOrderInWhichItComes) {
   EXPECT_TRUE(comes([&] { return values() == mapAt(0.0, {".#.##"}, 0.0).data; }))
       << "with what is stamped later, and without what came before it";
   EXPECT_EQ(receiver_.lost(), "");
+}
+
+// By the code, a listener that failed once never heard of the cells of that change, where the map itself had them.
+TEST_F(MapReceiverTest, AChangeThatItsListenerDidNotTakeIsAskedForAndToldWhole) {
+  firstMap(5.0);
+  ASSERT_EQ(wholes_, 1);
+  const int links = links_;
+  fails_ = true;
+  send(cellAt(0, 100, 4.0));
+  ASSERT_TRUE(comes([&] { return !fails_ && !receiver_.lost().empty() && links_ > links; }));
+  EXPECT_EQ(wholes_, 1);
+  maps_.publish(mapAt(0.0, {"#...#"}, 0.0));  // as it is already
+  ASSERT_TRUE(comes([&] { return receiver_.lost().empty(); }));
+  EXPECT_EQ(wholes_, 2);
 }
 
 // A map that was refused had all updates forgotten that a good one was to be taken with.
