@@ -79,7 +79,9 @@ class Poses(ForeignTest):
         return {"id": "goal %d" % self.rounds}
 
     def said_or(self, node, text, expect):
-        return "" if re.search(expect["refused"], text + node.said(node.marked)) else "it says: " + text
+        """The answer of a service may come before the line of the log that tells its reason."""
+        told = wait_until(lambda: re.search(expect["refused"], text + node.said(node.marked)), 20.0)
+        return "" if told else "it says: " + text
 
     def test_path_planner(self):
         node = self.node("path_planner", PATH_PLANNER)
