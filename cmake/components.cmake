@@ -43,7 +43,7 @@ endmacro()
 # What is installed and names no component.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME planning)
 
-set(GPP_FOLDERS base grid costmap path planners planning layers)
+set(GPP_FOLDERS base grid costmap vehicle path planners planning layers)
 set(GPP_ROOMS ${GPP_FOLDERS})
 set(ros_rooms ros_guard ros_messages ros_input ros_planning ros_adapters ros_layers)
 set(GPP_NODES path_planner map_publisher map_layers)

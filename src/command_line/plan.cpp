@@ -14,7 +14,7 @@
 #include "grid_path_planner/path/waypoint_file.h"
 #include "grid_path_planner/planning/path_planner.h"
 #include "grid_path_planner/ros/bag.h"
-#include "path/footprint/motions.h"
+#include "path/motions.h"
 #include "planning/explanation.h"
 #include "planning/via/via_plan.h"
 
@@ -26,11 +26,12 @@ using grid::Cell, grid::GridGeometry, grid::MapFileOptions, grid::OccupancyGrid;
 using nodes::readAnyMapFile;
 using path::clearanceOf, path::measuresText, path::Pose, path::turningOf, path::writePicture,
     path::writeWaypointFile;
-using path::Footprint, path::Motion, path::motionsAlong, path::outlineAt;
+using path::motionsAlong;
 using planners::makePlanner, planners::traitsOf;
 using planning::explainFailure, planning::Explanation, planning::PathPlanner, planning::Plan,
     planning::PlannerOptions, planning::planThrough, planning::PoseRequest, planning::ViaOrder,
     planning::ViaPlan, planning::ViaRequest;
+using vehicle::Footprint, vehicle::Motion, vehicle::outlineAt;
 
 namespace {
 

@@ -4,9 +4,12 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "path/segment.h"
+#include "grid/segment.h"
 
 namespace grid_path_planner::path {
+
+using grid::Box, grid::clipped;
+
 namespace {
 
 constexpr int kSubpixelBits = 4;

@@ -2,14 +2,19 @@
 #include <algorithm>
 #include <cstring>
 
+#include "grid/segment.h"
 #include "grid_path_planner/path/metrics.h"
-#include "path/segment.h"
 
 namespace grid_path_planner::path {
 
+using grid::Box;
 using grid::Cell;
+using grid::CellSpan;
+using grid::distanceBetween;
+using grid::forEachRowInReach;
 using grid::Grid;
 using grid::Occupancy;
+using grid::Segment;
 
 namespace {
 

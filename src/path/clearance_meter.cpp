@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "grid/segment.h"
 #include "grid_path_planner/path/metrics.h"
 #include "path/occupied_cells.h"
-#include "path/segment.h"
 #include "path/straight_runs.h"
 
 namespace grid_path_planner::path {
 
-using grid::GridGeometry, grid::OccupancyGrid, grid::OccupancyThresholds;
+using grid::GridGeometry, grid::OccupancyGrid, grid::OccupancyThresholds, grid::Segment;
 
 namespace {
 

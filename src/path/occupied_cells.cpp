@@ -5,7 +5,8 @@
 
 namespace grid_path_planner::path {
 
-using grid::Occupancy, grid::OccupancyGrid, grid::OccupancyThresholds;
+using grid::Box, grid::CellSpan, grid::columnsInReach, grid::distanceBetween, grid::Occupancy,
+    grid::OccupancyGrid, grid::OccupancyThresholds, grid::Segment;
 
 namespace {
 

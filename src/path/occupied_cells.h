@@ -13,8 +13,8 @@
 #include <cstring>
 #include <vector>
 
+#include "grid/segment.h"
 #include "grid_path_planner/grid/occupancy.h"
-#include "path/segment.h"
 
 namespace grid_path_planner::path {
 
@@ -26,19 +26,20 @@ class OccupiedCells {
   OccupiedCells(const grid::OccupancyGrid& map, const grid::OccupancyThresholds& thresholds);
 
   // `limit` where no occupied cell is nearer.
-  double distanceTo(const Segment& segment, double limit);
+  double distanceTo(const grid::Segment& segment, double limit);
   double distanceTo(const Eigen::Vector2d& point, double limit);
 
  private:
   static constexpr int kSide = 64;  // of a square: a row of it is a cache line
   enum class Square : std::uint8_t { NOT_ASKED_YET, EMPTY, HOLDS_ANY };
 
-  static CellSpan cellsOf(int square,
-                          int count);  // its rows or columns, of a map with `count` of them
+  static grid::CellSpan cellsOf(int square,
+                                int count);  // its rows or columns, of a map with `count` of them
   bool holdsAny(int across, int up);
   bool looksLikeAny(int across, int up) const;
-  void lowerInSquare(const Segment& segment, int across, int up, double& least);
-  void lowerInRow(const Segment& segment, int row, const CellSpan& square, double& least) const;
+  void lowerInSquare(const grid::Segment& segment, int across, int up, double& least);
+  void lowerInRow(const grid::Segment& segment, int row, const grid::CellSpan& square,
+                  double& least) const;
   int nextIn(int row, int column, int end) const;
   // Not 0 where one of eight cells is occupied, all looked at as one number: adding 128 - threshold
   // to a byte that is not negative sets its sign from the threshold on.

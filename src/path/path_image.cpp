@@ -6,17 +6,17 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "grid/segment.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/base/files.h"
 #include "path/canvas.h"
 #include "path/rectangle_marks.h"
-#include "path/segment.h"
 
 namespace grid_path_planner::path {
 
 using base::InputError, base::writeFileAtomically;
-using grid::Cell, grid::CellRect, grid::GridGeometry, grid::Occupancy, grid::OccupancyGrid,
-    grid::OccupancyThresholds;
+using grid::Cell, grid::CellRect, grid::distanceBetween, grid::GridGeometry, grid::Occupancy,
+    grid::OccupancyGrid, grid::OccupancyThresholds;
 
 namespace {
 

@@ -7,9 +7,9 @@
 
 #include "grid/map_differences.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
-#include "path/footprint/footprint.h"
 #include "planning/footprint/fitted_plan.h"
 #include "planning/plan_on_costs.h"
+#include "vehicle/footprint.h"
 
 namespace grid_path_planner::planning {
 
@@ -18,8 +18,8 @@ using base::checkOptionLimits, base::InputError, base::sameOptions, base::Status
 using costmap::CostGrid, costmap::CostmapBuilder, costmap::CostmapOptions;
 using grid::Cell, grid::CellRect, grid::disjointRects, grid::Grid, grid::GridGeometry,
     grid::Occupancy, grid::OccupancyGrid;
-using path::Footprint;
 using planners::memoryLimitOf, planners::PlannerMaker;
+using vehicle::Footprint;
 
 namespace {
 

@@ -46,7 +46,7 @@ class CostPlanner {
   // it would take more than the memory limit.
   void setCosts(const grid::GridGeometry& geometry, const Cost* costs, double inscribed_radius);
   // Corners in metres, base_link; they count from the next plan() on, which answers INVALID_REQUEST where they are no
-  // footprint (path/footprint/footprint.h) and use_footprint asks for one.
+  // footprint (vehicle/footprint.h) and use_footprint asks for one.
   void setFootprint(std::vector<Eigen::Vector2d> corners) { footprint_ = std::move(corners); }
   // Cells in the rectangles of which weights are to be made by the next plan().
   std::size_t changedCells() const;

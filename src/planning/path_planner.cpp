@@ -12,7 +12,6 @@
 #include "grid_path_planner/base/options.h"
 #include "grid_path_planner/costmap/costmap_builder.h"
 #include "grid_path_planner/planners/planner_factory.h"
-#include "path/footprint/footprint.h"
 #include "planning/footprint/fitted_plan.h"
 #include "planning/map_store.h"
 #include "planning/message_text.h"
@@ -20,6 +19,7 @@
 #include "planning/plan_on_costs.h"
 #include "planning/prepared_planners.h"
 #include "planning/turning/curves.h"
+#include "vehicle/footprint.h"
 
 namespace grid_path_planner::planning {
 
@@ -28,9 +28,10 @@ using base::checkOptionLimits, base::choiceName, base::InputError, base::sameOpt
 using costmap::checkCostmapOptions, costmap::CostGrid, costmap::CostmapBuilder,
     costmap::CostmapOptions;
 using grid::CellRect, grid::checkOccupancyValues, grid::GridGeometry, grid::OccupancyGrid;
-using path::Footprint, path::HeadingMode;
+using path::HeadingMode;
 using planners::checkSearchOptions, planners::memoryLimitOf, planners::PlannerMaker,
     planners::TooExpensive, planners::traitsOf;
+using vehicle::Footprint;
 
 namespace {
 

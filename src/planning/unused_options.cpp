@@ -4,14 +4,15 @@
 
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/planners/planner_factory.h"
-#include "path/footprint/footprint.h"
+#include "vehicle/footprint.h"
 
 namespace grid_path_planner::planning {
 
 using base::differingOptions, base::OptionInfo, base::valueText;
 using costmap::Connectivity, costmap::DiagonalCost;
-using path::Footprint, path::PathZ;
+using path::PathZ;
 using planners::Heuristic, planners::optionsUsedBy, planners::SearchOptions, planners::traitsOf;
+using vehicle::Footprint;
 
 namespace {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <random>
 
-#include "path/footprint/footprint.h"
 #include "planning/cost_planner.h"
 #include "support/ascii_map.h"
 #include "support/error_text.h"
 #include "support/footprint_reference.h"
 #include "support/random_footprints.h"
+#include "vehicle/footprint.h"
 
 namespace grid_path_planner::planning {
 
@@ -48,7 +48,7 @@ Grid<Cost> costmapOf(const OccupancyGrid& map, double inscribed) {
 }
 
 double inscribedRadius(const Corners& corners) {
-  return path::Footprint("footprint", corners).inscribedRadius();
+  return vehicle::Footprint("footprint", corners).inscribedRadius();
 }
 
 struct CostQuestion {

@@ -14,20 +14,20 @@ CONTEXT = {
                         "extern PlanAnswer answer; extern bool best_order;",
     "route_points.h": "extern path::Pose goal; template <class... T> void plan(const T&...);",
     "footprint_clearance.h": "extern const grid::OccupancyGrid map; extern const ClearanceLimits limits; void halt(const Eigen::Vector2d&);"
-                             "extern const path::Footprint footprint; extern const std::vector<Eigen::Vector3d> ahead;",
+                             "extern const vehicle::Footprint footprint; extern const std::vector<Eigen::Vector3d> ahead;",
     "dubins.h": "extern const Eigen::Vector2d from, to; extern const double direction, radius; void add(const Eigen::Vector2d&);",
     "footprint.h": "void search(double radius);", "joystick_loop.h": "extern ros::NodeHandle nh; extern TeleopJoyOptions options;",
     "motions.h": "extern const Path path; extern const Pose start, goal; void check(const Motion&);",
     "sweep.h": "extern const Footprint footprint; extern const grid::GridGeometry geometry; extern const Motion motion;"
                "extern const FootprintObstacles obstacles; void report(grid::Cell, const Eigen::Vector2d&, double yaw);",
-    "fitted_plan.h": "extern const path::Footprint footprint; extern const costmap::CostGrid costs; extern std::size_t memory;"
+    "fitted_plan.h": "extern const vehicle::Footprint footprint; extern const costmap::CostGrid costs; extern std::size_t memory;"
                      "extern const FittedPlanner::Inflate inflate; extern const PlannerOptions options;"
                      "extern MultiResolutionPlanner search; extern const PoseRequest request;",
-    "footprint_check.h": "extern const path::Footprint footprint; extern const costmap::CostGrid costs;"
+    "footprint_check.h": "extern const vehicle::Footprint footprint; extern const costmap::CostGrid costs;"
                          "extern const PlannerOptions options; extern const path::Pose start, goal; extern const path::Path path;",
     "try_costs.h": "extern const costmap::CostGrid costs; extern const Eigen::Vector2d start; extern const Eigen::Vector2d* goal;"
                    "extern std::shared_ptr<const costmap::CostGrid> inflated_by_the_circumscribed_radius; extern bool fails;"
-                   "extern const path::Path path; extern const std::vector<path::FootprintContact> contacts;"
+                   "extern const path::Path path; extern const std::vector<vehicle::FootprintContact> contacts;"
                    "extern const double radius; void plan(const costmap::CostGrid&);",
     "curved_path.h": "extern const path::Path path; extern const double start_yaw, goal_yaw, radius; void drive(const path::Path&);"
                      "bool legal(const std::vector<Eigen::Vector2d>&);",

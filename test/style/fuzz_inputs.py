@@ -28,6 +28,7 @@ INPUTS = {
     "grid/formats/image_file.cpp": {FILE: "png_image jpeg_image bmp_image pnm_image map_file"},
     "grid/map_file.cpp": {FILE: "map_file map_server_file moving_ai_map occupancy_dump"},
     "layers/zones.cpp": {FILE: "zones"},
+    "vehicle/description.cpp": {FILE: "vehicle_file"},
     "mapping/tree_file.cpp": {FILE: "octree_file"},
     "option_files/main.cpp": {FILE: OWN},
     "path/waypoint_file.cpp": {FILE: "waypoint_file"},

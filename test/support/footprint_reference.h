@@ -1,5 +1,5 @@
 // How far a footprint reaches into occupied cells at poses close to one another along a path, by Boost.Geometry: shares no code
-// with path/footprint.
+// with vehicle.
 #pragma once
 
 #include <vector>

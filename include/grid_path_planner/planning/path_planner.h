@@ -37,7 +37,7 @@
 #include "grid_path_planner/planners/search_options.h"
 #include "grid_path_planner/planning/plan.h"
 
-namespace grid_path_planner::path {
+namespace grid_path_planner::vehicle {
 class Footprint;
 }
 
@@ -261,8 +261,8 @@ class PathPlanner {
   std::size_t memory_limit_ = std::numeric_limits<std::size_t>::max();
   PlannerOptions options_;
   PlannerOptions searched_;
-  std::unique_ptr<const path::Footprint> footprint_;  // null: round
-  bool shared_;                                       // whether others use the store
+  std::unique_ptr<const vehicle::Footprint> footprint_;  // null: round
+  bool shared_;                                          // whether others use the store
   std::shared_ptr<MapStore> store_;
   std::shared_ptr<MapSeries> series_;  // null before takeMap()
   std::shared_ptr<const grid::OccupancyGrid> map_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "grid_path_planner/costmap/costmap_builder.h"
+#include "path/motions.h"
 #include "planning/message_text.h"
 #include "planning/route.h"
 #include "planning/turning/curves.h"
@@ -16,7 +17,8 @@ namespace grid_path_planner::planning {
 
 using base::Status, base::StopToken;
 using costmap::CostGrid, costmap::CostmapBuilder, costmap::SegmentRule;
-using path::Footprint, path::FootprintContact, path::Path, path::Pose;
+using path::Path, path::Pose;
+using vehicle::Footprint, vehicle::FootprintContact;
 
 namespace {
 

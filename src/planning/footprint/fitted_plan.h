@@ -33,15 +33,15 @@ class FittedPlanner {
 
   // `costs` is the costmap at full resolution that the search is prepared for; the radius of `options` is that
   // which it keeps. `memory`: bytes that the tries may take. All references outlive this.
-  FittedPlanner(const path::Footprint& footprint, const costmap::CostGrid& costs, Inflate inflate,
-                const PlannerOptions& options, std::size_t memory);
+  FittedPlanner(const vehicle::Footprint& footprint, const costmap::CostGrid& costs,
+                Inflate inflate, const PlannerOptions& options, std::size_t memory);
 
   // Throws Stopped, and what searches throw. Preconditions of planOnCosts().
   Plan plan(MultiResolutionPlanner& search, const PoseRequest& request,
             const base::StopToken& stop);
 
  private:
-  using Contacts = std::vector<path::FootprintContact>;
+  using Contacts = std::vector<vehicle::FootprintContact>;
 
   Contacts contactsOf(const Plan& plan, const PoseRequest& request,
                       const base::StopToken& stop) const;
@@ -65,11 +65,11 @@ class FittedPlanner {
   Plan planWithRoom(Plan first, const PoseRequest& request, const base::StopToken& stop);
   Plan completed(Plan plan, const PoseRequest& request, const std::string& how,
                  const base::StopToken& stop) const;
-  Plan failed(const Plan& first, const PoseRequest& request, const path::FootprintContact& contact,
-              const std::string& tried) const;
+  Plan failed(const Plan& first, const PoseRequest& request,
+              const vehicle::FootprintContact& contact, const std::string& tried) const;
   std::size_t bytesOfTries() const;
 
-  const path::Footprint& footprint_;
+  const vehicle::Footprint& footprint_;
   const costmap::CostGrid& costs_;
   const Inflate inflate_;
   const PlannerOptions& options_;

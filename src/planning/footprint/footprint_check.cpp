@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "path/motions.h"
 #include "planning/message_text.h"
 
 namespace grid_path_planner::planning {
@@ -9,8 +10,9 @@ namespace grid_path_planner::planning {
 using base::StopToken;
 using costmap::CostGrid, costmap::CostmapOptions, costmap::Outside;
 using grid::Cell, grid::Occupancy, grid::RowSpan;
-using path::Footprint, path::FootprintContact, path::FootprintObstacles, path::FootprintSweep,
-    path::Motion, path::motionsAlong, path::Path, path::Pose;
+using path::motionsAlong, path::Path, path::Pose;
+using vehicle::Footprint, vehicle::FootprintContact, vehicle::FootprintObstacles,
+    vehicle::FootprintSweep, vehicle::Motion;
 
 namespace {
 

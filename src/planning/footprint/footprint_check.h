@@ -1,4 +1,4 @@
-// Whether a vehicle's footprint keeps off obstacles along a path, at its ends and between (path/footprint/sweep.h).
+// Whether a vehicle's footprint keeps off obstacles along a path, at its ends and between (vehicle/sweep.h).
 //
 //   FootprintCheck check(footprint, costs, options);
 //   check.allowFor({start, goal});
@@ -13,14 +13,14 @@
 #include <vector>
 
 #include "grid_path_planner/planning/path_planner.h"
-#include "path/footprint/sweep.h"
+#include "vehicle/sweep.h"
 
 namespace grid_path_planner::planning {
 
 class FootprintCheck {
  public:
   // `costs` is the costmap at full resolution; it outlives this. Precondition: the footprint is not empty.
-  FootprintCheck(const path::Footprint& footprint, const costmap::CostGrid& costs,
+  FootprintCheck(const vehicle::Footprint& footprint, const costmap::CostGrid& costs,
                  const PlannerOptions& options);
 
   // Where the footprint meets unknown cells or the outside at one of these poses, they are no obstacles from now on:
@@ -32,17 +32,17 @@ class FootprintCheck {
   // What is wrong with a pose, from "meets the occupied cell at ..."; "" where nothing is.
   std::string complaint(const path::Pose& pose) const;
   // `path` has the headings of the options. Each of `start_yaw` and `goal_yaw` counts where it is given. Throws Stopped.
-  std::optional<path::FootprintContact> first(const path::Path& path,
-                                              std::optional<double> start_yaw,
-                                              std::optional<double> goal_yaw,
-                                              const base::StopToken& stop) const;
+  std::optional<vehicle::FootprintContact> first(const path::Path& path,
+                                                 std::optional<double> start_yaw,
+                                                 std::optional<double> goal_yaw,
+                                                 const base::StopToken& stop) const;
   // Wherever the footprint meets an obstacle, once a footprint's length.
-  std::vector<path::FootprintContact> contacts(const path::Path& path,
-                                               std::optional<double> start_yaw,
-                                               std::optional<double> goal_yaw,
-                                               const base::StopToken& stop) const;
+  std::vector<vehicle::FootprintContact> contacts(const path::Path& path,
+                                                  std::optional<double> start_yaw,
+                                                  std::optional<double> goal_yaw,
+                                                  const base::StopToken& stop) const;
   // "meets the occupied cell at (1, 2) with the vehicle at (1, 1.5), heading 90 deg".
-  std::string text(const path::FootprintContact& contact) const;
+  std::string text(const vehicle::FootprintContact& contact) const;
 
  private:
   struct Counted {
@@ -50,15 +50,15 @@ class FootprintCheck {
     bool outside;
   };
 
-  path::FootprintSweep sweepOver(bool occupied, Counted counted) const;
+  vehicle::FootprintSweep sweepOver(bool occupied, Counted counted) const;
   std::string cellText(grid::Cell cell) const;
 
-  const path::Footprint& footprint_;
+  const vehicle::Footprint& footprint_;
   const costmap::CostGrid& costs_;
   const path::HeadingMode heading_;
   Counted counted_;
   Counted allowed_{false, false};
-  path::FootprintSweep sweep_;
+  vehicle::FootprintSweep sweep_;
 };
 
 }  // namespace grid_path_planner::planning

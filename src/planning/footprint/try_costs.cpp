@@ -9,7 +9,8 @@ namespace grid_path_planner::planning {
 using costmap::CostGrid;
 using Eigen::Vector2d;
 using grid::Cell, grid::CellRect, grid::GridGeometry;
-using path::FootprintContact, path::Path;
+using path::Path;
+using vehicle::FootprintContact;
 
 namespace {
 

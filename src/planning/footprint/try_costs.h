@@ -11,7 +11,7 @@
 
 #include "grid_path_planner/costmap/cost_grid.h"
 #include "grid_path_planner/path/path.h"
-#include "path/footprint/sweep.h"
+#include "vehicle/sweep.h"
 
 namespace grid_path_planner::planning {
 
@@ -25,7 +25,7 @@ class TryCosts {
   void raise(const costmap::CostGrid& turning, int factor);
   // Closes the cells within `radius` metres of the places of the path where the contacts are; of those near an end
   // within that and two cells more of the path, since the end itself stays. False where all were closed before.
-  bool close(const path::Path& path, const std::vector<path::FootprintContact>& contacts,
+  bool close(const path::Path& path, const std::vector<vehicle::FootprintContact>& contacts,
              double radius);
 
   std::shared_ptr<const costmap::CostGrid> costs() const;

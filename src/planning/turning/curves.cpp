@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "grid_path_planner/costmap/line_of_sight.h"
-#include "path/footprint/motions.h"
+#include "path/motions.h"
 #include "planning/end_segments.h"
 #include "planning/message_text.h"
 #include "planning/turning/curved_path.h"

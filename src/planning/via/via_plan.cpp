@@ -7,7 +7,7 @@
 #include <string>
 
 #include "grid_path_planner/path/headings.h"
-#include "path/footprint/motions.h"
+#include "path/motions.h"
 #include "planning/message_text.h"
 #include "planning/via/visiting_order.h"
 
@@ -284,7 +284,7 @@ class ViaPlanning {
     Pose end = plan.path.poses.back();
     end.position.z() = to.pose.position.z();
     if (options_.footprint.empty() && options_.min_turning_radius <= 0.0) return end;
-    const path::Motion last =
+    const vehicle::Motion last =
         path::motionsAlong(plan.path, start_yaw, std::nullopt, options_.heading).back();
     end.yaw = last.yaw + last.turn;
     return end;

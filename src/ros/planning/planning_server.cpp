@@ -10,10 +10,10 @@
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/path/waypoint_file.h"
-#include "path/footprint/footprint.h"
 #include "planning/map_store.h"
 #include "ros/messages/file_kinds.h"
 #include "ros/planning/requests/request_poses.h"
+#include "vehicle/footprint.h"
 
 namespace grid_path_planner::nodes {
 
@@ -23,13 +23,13 @@ using base::Status;
 using base::Stopped;
 using base::StopSource;
 using base::StopToken;
-using path::Footprint;
 using path::measuresText;
 using path::Path;
 using path::writeWaypointFile;
 using planning::failedPlan;
 using planning::MapStore;
 using planning::Plan;
+using vehicle::Footprint;
 
 namespace {
 

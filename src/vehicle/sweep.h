@@ -18,10 +18,10 @@
 #include "grid/polygon_cover.h"
 #include "grid_path_planner/base/stop_token.h"
 #include "grid_path_planner/grid/grid_geometry.h"
-#include "path/footprint/footprint.h"
-#include "path/footprint/motions.h"
+#include "vehicle/footprint.h"
+#include "vehicle/motion.h"
 
-namespace grid_path_planner::path {
+namespace grid_path_planner::vehicle {
 
 struct FootprintObstacles {
   // The first column of a span in the map that is an obstacle; the span's end where none is.
@@ -70,4 +70,4 @@ class FootprintSweep {
   double reach_ = 0.0;  // cells, of the farthest corner
 };
 
-}  // namespace grid_path_planner::path
+}  // namespace grid_path_planner::vehicle

@@ -1,5 +1,5 @@
 // The polygon itself: what is read, what is refused with which words, and its two radii.
-#include "path/footprint/footprint.h"
+#include "vehicle/footprint.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "support/error_text.h"
 
-namespace grid_path_planner::path {
+namespace grid_path_planner::vehicle {
 namespace {
 
 namespace bg = boost::geometry;
@@ -121,4 +121,4 @@ TEST(Footprint, radiiAndVerdictsAreThoseOfBoostGeometry) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner::path
+}  // namespace grid_path_planner::vehicle

@@ -1,6 +1,6 @@
 // Where a footprint meets cells while it drives and turns: pictures, and random motions against Boost.Geometry's areas of
 // polygons at many places along them.
-#include "path/footprint/sweep.h"
+#include "vehicle/sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 #include "support/ascii_map.h"
 
-namespace grid_path_planner::path {
+namespace grid_path_planner::vehicle {
 
 using base::StopToken;
 using grid::Cell;
@@ -211,4 +211,4 @@ TEST(FootprintSweep, randomMotionsAgainstBoostGeometry) {
 }
 
 }  // namespace
-}  // namespace grid_path_planner::path
+}  // namespace grid_path_planner::vehicle

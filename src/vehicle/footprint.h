@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace grid_path_planner::path {
+namespace grid_path_planner::vehicle {
 
 class Footprint {
  public:
@@ -40,4 +40,4 @@ class Footprint {
   double circumscribed_ = 0.0;
 };
 
-}  // namespace grid_path_planner::path
+}  // namespace grid_path_planner::vehicle

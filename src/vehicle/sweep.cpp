@@ -1,10 +1,10 @@
-#include "path/footprint/sweep.h"
+#include "vehicle/sweep.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace grid_path_planner::path {
+namespace grid_path_planner::vehicle {
 
 using base::StopPoll, base::StopToken;
 using Eigen::Vector2d;
@@ -203,4 +203,4 @@ std::vector<FootprintContact> FootprintSweep::all(const Motion& motion,
   return all;
 }
 
-}  // namespace grid_path_planner::path
+}  // namespace grid_path_planner::vehicle

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-namespace grid_path_planner::path {
+namespace grid_path_planner::grid {
 
 struct Segment {
   Eigen::Vector2d from;
@@ -58,4 +58,4 @@ void forEachRowInReach(const Segment& segment, double reach, int width, int heig
     if (const auto columns = columnsInReach(segment, row, reach, width)) visit(row, *columns);
 }
 
-}  // namespace grid_path_planner::path
+}  // namespace grid_path_planner::grid

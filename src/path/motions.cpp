@@ -1,9 +1,10 @@
-#include "path/footprint/motions.h"
+#include "path/motions.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 namespace grid_path_planner::path {
+
+using vehicle::Motion;
 
 namespace {
 
@@ -92,16 +93,6 @@ class Motions {
 };
 
 }  // namespace
-
-std::vector<Eigen::Vector2d> outlineAt(const Footprint& footprint, const Motion& motion,
-                                       double share) {
-  const double yaw = motion.yaw + share * motion.turn;
-  const Eigen::Vector2d at = motion.from + share * (motion.to - motion.from);
-  std::vector<Eigen::Vector2d> outline;
-  for (const Eigen::Vector2d& corner : footprint.corners())
-    outline.push_back(at + Eigen::Rotation2Dd(yaw) * corner);
-  return outline;
-}
 
 std::optional<double> drivingDirection(double yaw, HeadingMode mode) {
   switch (mode) {

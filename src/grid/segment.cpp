@@ -1,8 +1,8 @@
-#include "path/segment.h"
+#include "grid/segment.h"
 
 #include <algorithm>
 
-namespace grid_path_planner::path {
+namespace grid_path_planner::grid {
 namespace {
 
 double distanceToSegment(const Eigen::Vector2d& point, const Segment& segment) {
@@ -52,4 +52,4 @@ double distanceBetween(const Segment& segment, const Box& box) {
   return distance;
 }
 
-}  // namespace grid_path_planner::path
+}  // namespace grid_path_planner::grid

@@ -1,4 +1,4 @@
-#include "path/footprint/footprint.h"
+#include "vehicle/footprint.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "grid_path_planner/base/errors.h"
 
-namespace grid_path_planner::path {
+namespace grid_path_planner::vehicle {
 
 using base::decimalText, base::InputError;
 using Eigen::Vector2d;
@@ -180,4 +180,4 @@ Footprint Footprint::fromText(const std::string& name, const std::string& text) 
   return corners.empty() ? Footprint() : Footprint(name, std::move(corners));
 }
 
-}  // namespace grid_path_planner::path
+}  // namespace grid_path_planner::vehicle
