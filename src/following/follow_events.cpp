@@ -44,12 +44,16 @@ const char* toString(DriveStatus status) {
       return "INVALID_POSE";
     case DriveStatus::INVALID_REQUEST:
       return "INVALID_REQUEST";
+    case DriveStatus::POSE_JUMP:
+      return "POSE_JUMP";
+    case DriveStatus::WRONG_DRIVE:
+      return "WRONG_DRIVE";
   }
   return "?";
 }
 
 std::optional<DriveStatus> driveStatusFromName(std::string_view name) {
-  for (int i = 0; i <= static_cast<int>(DriveStatus::INVALID_REQUEST); ++i)
+  for (int i = 0; i <= static_cast<int>(DriveStatus::WRONG_DRIVE); ++i)
     if (toString(static_cast<DriveStatus>(i)) == name) return static_cast<DriveStatus>(i);
   return std::nullopt;
 }

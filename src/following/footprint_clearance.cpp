@@ -1,38 +1,23 @@
 #include "following/footprint_clearance.h"
 
-#include "path/footprint/sweep.h"
+#include "path/motions.h"
+#include "vehicle/map_obstacles.h"
 
 namespace grid_path_planner::following {
 
 using base::StopToken;
-using grid::Occupancy;
 using grid::OccupancyGrid;
-using path::Footprint;
-using path::FootprintObstacles;
-using path::FootprintSweep;
 using path::HeadingMode;
-using path::Motion;
 using path::motionsAlong;
 using path::Path;
+using vehicle::Footprint;
+using vehicle::FootprintSweep;
+using vehicle::mapObstacles;
+using vehicle::Motion;
 
 namespace {
 
 constexpr double kSamePlace = 1e-6;  // m
-
-FootprintObstacles obstaclesOf(const OccupancyGrid& map, const ClearanceLimits& limits) {
-  FootprintObstacles obstacles;
-  obstacles.outside = limits.stop_at_unknown;
-  obstacles.first = [&map, limits](const grid::RowSpan& span) {
-    const auto* row = map.row(span.row);
-    int column = span.first;
-    while (
-        column < span.end && row[column] < limits.thresholds.occupied_min &&
-        !(limits.stop_at_unknown && limits.thresholds.classify(row[column]) == Occupancy::UNKNOWN))
-      ++column;
-    return column;
-  };
-  return obstacles;
-}
 
 Obstruction obstructionAt(const OccupancyGrid& map, const ClearanceLimits& limits,
                           grid::Cell cell) {
@@ -59,7 +44,8 @@ std::optional<Obstruction> firstFootprintContact(const OccupancyGrid& map,
                                                  const std::vector<Eigen::Vector3d>& ahead) {
   const Path path = withDirections(ahead);
   if (path.poses.size() < 2) return std::nullopt;
-  const FootprintSweep sweep(footprint, map.geometry(), obstaclesOf(map, limits));
+  const FootprintSweep sweep(footprint, map.geometry(),
+                             mapObstacles(map, limits.thresholds, limits.stop_at_unknown));
   for (const Motion& motion : motionsAlong(path, std::nullopt, std::nullopt, HeadingMode::NONE))
     if (const auto contact = sweep.first(motion, StopToken()))
       return obstructionAt(map, limits, contact->cell);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "grid_path_planner/following/path_clearance_check.h"
-#include "path/footprint/footprint.h"
+#include "vehicle/footprint.h"
 
 namespace grid_path_planner::following {
 
@@ -18,7 +18,7 @@ namespace grid_path_planner::following {
 // footprint is not empty.
 std::optional<Obstruction> firstFootprintContact(const grid::OccupancyGrid& map,
                                                  const ClearanceLimits& limits,
-                                                 const path::Footprint& footprint,
+                                                 const vehicle::Footprint& footprint,
                                                  const std::vector<Eigen::Vector3d>& ahead);
 
 }  // namespace grid_path_planner::following

@@ -8,12 +8,16 @@
 
 #include "following/check_waypoints.h"
 #include "following/follow_events.h"
+#include "following/free_steering.h"
+#include "following/pose_jumps.h"
 #include "following/route_progress.h"
 #include "following/speed_limit.h"
+#include "following/sway_check.h"
 #include "following/velocity_controller.h"
 #include "grid_path_planner/base/errors.h"
 #include "grid_path_planner/path/metrics.h"
 #include "grid_path_planner/path/waypoint_file.h"
+#include "vehicle/description.h"
 
 namespace grid_path_planner::following {
 
@@ -22,11 +26,23 @@ using path::kLargestCoordinate;
 using path::lengthOf;
 using path::Path;
 using path::Pose;
+using vehicle::Description;
+using vehicle::Drive;
+
+struct PathFollower::Watch {
+  PoseJumps jumps;
+  SwayCheck sway;
+  double arrived_at = 0.0;              // s
+  bool holding_ended = false;           // after the last arrival
+  std::optional<double> touches_since;  // since when nothing but a zero is free
+  BodyVelocity commanded;               // last
+};
 
 namespace {
 
 using Kind = FollowEvent::Kind;
 
+constexpr double kTouching = 0.5;  // s without a free motion, after which a drive is blocked
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Empty for a time and a pose that velocities can be computed from.
@@ -60,10 +76,12 @@ const Pose& currentPose(const PathFollower& follower) {
 
 }  // namespace
 
-PathFollower::PathFollower(const FollowerOptions& options)
-    : events_(std::make_unique<FollowEvents>()),
+PathFollower::PathFollower(const FollowerOptions& options, const Description* vehicle)
+    : vehicle_(vehicle ? std::make_unique<Description>(*vehicle) : nullptr),
+      events_(std::make_unique<FollowEvents>()),
       progress_(std::make_unique<RouteProgress>(Path(), Join::FIRST, options_, *events_)),
-      controller_(std::make_unique<VelocityController>(options_)) {
+      controller_(makeController(options_, vehicle_.get())),
+      watch_(std::make_unique<Watch>()) {
   setOptions(options);
 }
 
@@ -72,13 +90,23 @@ PathFollower::~PathFollower() = default;
 void PathFollower::setOptions(const FollowerOptions& options) {
   checkFollowerOptions(options);
   options_ = options;
+  if (vehicle_ && vehicle_->drive != Drive::OMNIDIRECTIONAL) options_.facing = FacingMode::ALONG;
+  if (vehicle_ && vehicle_->drive == Drive::CAR) options_.yaw_tolerance = M_PI;
   progress_->updateRoute();
 }
 
 void PathFollower::start(const Path& path, Join join) {
   checkWaypoints(path, options_.loop);
-  if (path.frame_id != progress_->path().frame_id) controller_->changeFrame();
-  progress_ = std::make_unique<RouteProgress>(path, join, options_, *events_);
+  if (path.frame_id != progress_->path().frame_id) {
+    controller_->changeFrame();
+    watch_->jumps.forget();
+  }
+  Path driven = path;
+  if (vehicle_ && !vehicle_->changesHeight())
+    for (Pose& pose : driven.poses) pose.position.z() = path.poses.front().position.z();
+  progress_ = std::make_unique<RouteProgress>(std::move(driven), join, options_, *events_);
+  watch_->sway.restart();
+  watch_->touches_since.reset();
   if (!std::exchange(starts_paused_, false) && state_ != FollowState::PAUSED)
     state_ = FollowState::DRIVING;
   else
@@ -108,7 +136,7 @@ PathFollower::Answer PathFollower::pause() {
 }
 
 PathFollower::Answer PathFollower::pauseTheNext() {
-  const bool held = state_ == FollowState::ARRIVED && options_.hold_pose;
+  const bool held = state_ == FollowState::ARRIVED && options_.hold_pose && !watch_->holding_ended;
   cancel("paused");
   starts_paused_ = true;
   return {true, std::string(held ? "the pose at the end of the path is not held any more"
@@ -155,14 +183,26 @@ BodyVelocity PathFollower::update(const FollowInput& input) {
   return {};
 }
 
-BodyVelocity PathFollower::velocityFor(const FollowInput& input) {
+// A vehicle that cannot change its height is on the path's plane, wherever base_link is above it.
+FollowInput PathFollower::levelled(FollowInput input) const {
+  if (input.pose && vehicle_ && !vehicle_->changesHeight() && !path().empty())
+    input.pose->position.z() = path().poses.front().position.z();
+  return input;
+}
+
+BodyVelocity PathFollower::velocityFor(const FollowInput& given) {
+  const FollowInput input = levelled(given);
   const double seconds = time_ ? input.time - *time_ : 0.0;
   time_ = input.time;
   if (seconds < 0.0) {
+    watch_->jumps.forget();
     abandon("time went back by " + std::to_string(-seconds) + " s");
     return {};
   }
-  if (input.pose) pose_ = input.pose;
+  if (input.pose) {
+    if (jumped(input)) return {};
+    pose_ = input.pose;
+  }
   if (state_ == FollowState::ARRIVED && input.pose && input.hold.empty())
     return holdEnd(input, seconds);
   if (state_ != FollowState::DRIVING && state_ != FollowState::BLOCKED) {
@@ -170,23 +210,68 @@ BodyVelocity PathFollower::velocityFor(const FollowInput& input) {
     return {};
   }
   if (input.pose && !progress_->joined()) progress_->join(*input.pose);
-  if (isBlocked(input)) {
-    standStill();
+  const std::string why = whyNot(input);
+  if (!why.empty()) {
+    watch_->touches_since.reset();
+    obstructed_ = input.hold.empty() && input.pose;
+    const bool lost = input.hold.empty() && !input.pose;
+    block(input.time, lost ? DriveStatus::TF_STALE : DriveStatus::BLOCKED, why);
     return {};
   }
+  if (!watch_->touches_since) unblock();
   limitSpeed(input, progress_->ahead(input.pose->position, speedLimitLookahead(options_)));
-  return drive(*input.pose, input.time, seconds);
+  return drive(input, seconds);
+}
+
+// Whoever plans has to say how to go on from there.
+bool PathFollower::jumped(const FollowInput& input) {
+  const auto distance = watch_->jumps.note(*input.pose, input.time - input.pose_age, options_);
+  if (!distance) return false;
+  const std::string what =
+      "the vehicle's pose jumped by " + metres(*distance) + ", more than it can have driven";
+  if (state_ == FollowState::ARRIVED) {
+    giveUpHolding(what);
+    return false;
+  }
+  if (!active()) return false;
+  pose_ = input.pose;
+  end({FollowState::FAILED, DriveStatus::POSE_JUMP, what + ": a new path from there is needed"});
+  return true;
+}
+
+// Whether the pose at the end of the path is one to be returned to still.
+bool PathFollower::holds(const FollowInput& input) {
+  if (watch_->holding_ended || !options_.hold_pose) return false;
+  const double off = positionError();
+  if (off > options_.hold_distance)
+    giveUpHolding("it is " + metres(off) + " off, more than hold_distance");
+  else if (input.time - watch_->arrived_at > options_.hold_time)
+    giveUpHolding("hold_time is over");
+  return !watch_->holding_ended;
+}
+
+void PathFollower::giveUpHolding(const std::string& why) {
+  if (!options_.hold_pose || std::exchange(watch_->holding_ended, true)) return;
+  message_ += "; it is not brought back there any more: " + why;
+}
+
+bool PathFollower::holdingEnded() const {
+  return state_ == FollowState::ARRIVED && watch_->holding_ended &&
+         (positionError() > options_.position_tolerance || yawError() > options_.yaw_tolerance);
 }
 
 // Back to the end of the path, where nothing stands between.
 BodyVelocity PathFollower::holdEnd(const FollowInput& input, double seconds) {
   const std::vector<Eigen::Vector3d> back = {input.pose->position, path().poses.back().position};
-  if (input.check && !input.check(back).empty()) {
+  if (!holds(input) || (input.check && !input.check(back).empty())) {
     standStill();
     return {};
   }
   limitSpeed(input, back);
-  return controller_->holdPose(path().poses.back(), *input.pose, seconds);
+  const FreeSteering free =
+      freeSteering(controller_->holdPose(path().poses.back(), *input.pose, seconds), input.motion);
+  controller_->take(free.steering.value_or(Steering()));
+  return free.steering ? free.steering->command : BodyVelocity();
 }
 
 void PathFollower::limitSpeed(const FollowInput& input, const std::vector<Eigen::Vector3d>& ahead) {
@@ -194,21 +279,13 @@ void PathFollower::limitSpeed(const FollowInput& input, const std::vector<Eigen:
                                       : std::numeric_limits<double>::infinity());
 }
 
-bool PathFollower::isBlocked(const FollowInput& input) {
-  const std::string why = whyNot(input);
-  if (!why.empty()) {
-    obstructed_ = input.hold.empty() && input.pose;
-    const bool lost = input.hold.empty() && !input.pose;
-    block(input.time, lost ? DriveStatus::TF_STALE : DriveStatus::BLOCKED, why);
-    return true;
-  }
+void PathFollower::unblock() {
   if (state_ == FollowState::BLOCKED) {
     state_ = FollowState::DRIVING;
     message_ = "goes on";
     events_->report(Kind::UNBLOCKED, currentWaypoint(), message_);
   }
   blocked_since_.reset();
-  return false;
 }
 
 std::string PathFollower::whyNot(const FollowInput& input) const {
@@ -220,6 +297,7 @@ std::string PathFollower::whyNot(const FollowInput& input) const {
 }
 
 void PathFollower::block(double time, DriveStatus cause, const std::string& why) {
+  standStill();
   progress_->restartSettling();
   progress_->restartProgress();
   if (state_ != FollowState::BLOCKED) events_->report(Kind::BLOCKED, currentWaypoint(), why);
@@ -230,13 +308,35 @@ void PathFollower::block(double time, DriveStatus cause, const std::string& why)
     end({FollowState::FAILED, cause, why});
 }
 
-BodyVelocity PathFollower::drive(const Pose& vehicle, double time, double seconds) {
-  if (const auto ending = progress_->advance(vehicle, time)) {
+BodyVelocity PathFollower::drive(const FollowInput& input, double seconds) {
+  if (!vehicle_ && !watch_->sway.follows(*input.pose, watch_->commanded.sway, seconds)) {
+    end({FollowState::FAILED, DriveStatus::WRONG_DRIVE,
+         "the vehicle does not go sideways as linear.y commands it: describe it, with drive: "
+         "differential or car (the argument vehicle of the launch files)"});
+    return {};
+  }
+  if (const auto ending = progress_->advance(*input.pose, input.time)) {
     end(*ending);
     return {};
   }
   reportHalfway();
-  return controller_->follow(progress_->position(vehicle.position), vehicle, seconds);
+  return watch_->commanded = steer(input, seconds);
+}
+
+BodyVelocity PathFollower::steer(const FollowInput& input, double seconds) {
+  const FreeSteering free = freeSteering(*controller_, progress_->position(input.pose->position),
+                                         *input.pose, seconds, input.motion);
+  if (free.steering) {
+    if (std::exchange(watch_->touches_since, std::nullopt)) unblock();
+    controller_->take(*free.steering);
+    return free.steering->command;
+  }
+  standStill();
+  if (!watch_->touches_since) watch_->touches_since = input.time;
+  if (input.time - *watch_->touches_since < kTouching) return {};
+  obstructed_ = true;
+  block(input.time, DriveStatus::BLOCKED, free.problem);
+  return {};
 }
 
 void PathFollower::reportHalfway() {
@@ -254,12 +354,15 @@ void PathFollower::end(const DriveEnd& ending) {
   status_ = ending.status;
   message_ = ending.message;
   blocked_since_.reset();
+  watch_->arrived_at = time_.value_or(0.0);
+  watch_->holding_ended = false;
   standStill();
   events_->report(Kind::ENDED, currentWaypoint(), std::string(toString(status_)) + ": " + message_);
 }
 
 void PathFollower::standStill() {
   controller_->stop();
+  watch_->commanded = {};
   progress_->restartProgress();
 }
 

@@ -1,20 +1,27 @@
-// From a position on the route to the velocity that drives along it.
+// From a position on the route to the velocity that drives along it, one class a kind of drive.
 //
-//   VelocityController controller(options);
-//   BodyVelocity velocity = controller.follow({route, segment, share, at_stop}, pose, seconds);
+//   const auto controller = makeController(options, vehicle);
+//   const Steering steering = controller->follow({route, segment, share, at_stop}, pose, seconds, 1.0);
+//   controller->take(steering);                       // it is sent
 //
-// Guaranteed: the speeds of the options are never exceeded, and from one call to the next the
-// velocity changes no faster than they say; stop() alone is immediate.
+// Guaranteed: the speeds of the options are never exceeded, and from one that was taken to the next the
+// velocity changes no faster than they say; stop() alone is immediate. Asking changes nothing: several steerings may be
+// asked for, and one be taken.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <limits>
+#include <memory>
 
 #include "following/driven_route.h"
 #include "grid_path_planner/base/body_velocity.h"
 #include "grid_path_planner/following/follower_options.h"
 #include "grid_path_planner/path/path.h"
+
+namespace grid_path_planner::vehicle {
+struct Description;
+}  // namespace grid_path_planner::vehicle
 
 namespace grid_path_planner::following {
 
@@ -32,38 +39,69 @@ struct RoutePosition {
 double wantedYaw(const RoutePosition& position, const path::Pose& vehicle,
                  const FollowerOptions& options);
 
+// A command, and what a controller remembers once it is sent.
+struct Steering {
+  base::BodyVelocity command = {};
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, path frame
+  double yaw = 0.0;                                    // of the vehicle then
+  bool returning = false;                              // to the pose that is held
+  bool turning = false;                                // on the spot, towards the path
+  bool backwards = false;
+
+  // The same arc, slower.
+  Steering slowed(double factor) const;
+  // The turn of it alone, on the spot, and the rest of it.
+  Steering turnAlone() const;
+  Steering withoutTurn() const;
+};
+
 class VelocityController {
  public:
   // `options` must outlive the controller; changes count from the next call on.
   explicit VelocityController(const FollowerOptions& options) : options_(options) {}
+  virtual ~VelocityController() = default;
+  VelocityController(const VelocityController&) = delete;
+  VelocityController& operator=(const VelocityController&) = delete;
 
-  // `seconds`: since the last call.
-  base::BodyVelocity follow(const RoutePosition& position, const path::Pose& vehicle,
-                            double seconds);
-  // Brings a vehicle that left the tolerances of `target` back to it; otherwise, and without
-  // hold_pose, stops.
-  base::BodyVelocity holdPose(const path::Pose& target, const path::Pose& vehicle, double seconds);
+  // `seconds`: since the last one was taken. `pursuit`, above 0 to 1: the share of the pursuit distance that it steers with;
+  // with less it follows the route more exactly, and slower.
+  virtual Steering follow(const RoutePosition& position, const path::Pose& vehicle, double seconds,
+                          double pursuit) const = 0;
+  // Brings a vehicle that left the tolerances of `target` back to it; otherwise, and without hold_pose, a zero.
+  virtual Steering holdPose(const path::Pose& target, const path::Pose& vehicle,
+                            double seconds) const = 0;
+
+  void take(const Steering& steering) {
+    last_ = steering;
+    other_frame_ = false;
+  }
   // In the plane, m/s, beside the options; from the next call on.
   void limitSpeed(double most) { speed_limit_ = most; }
   void stop();
   // A new drive: nothing is held any longer.
-  void release() { returning_ = false; }
+  void release() { last_.returning = false; }
   // From the next call on poses are in another frame; the vehicle has the velocity that it had.
-  void changeFrame();
+  void changeFrame() { other_frame_ = true; }
+
+ protected:
+  const FollowerOptions& options() const { return options_; }
+  double speedLimit() const { return speed_limit_; }
+  // What was taken last, in the frame of `vehicle`.
+  Steering last(const path::Pose& vehicle) const;
 
  private:
-  Eigen::Vector3d wantedVelocity(const RoutePosition& position,
-                                 const Eigen::Vector3d& vehicle) const;
-  base::BodyVelocity limited(const path::Pose& vehicle, const Eigen::Vector3d& velocity,
-                             double yaw_error, double seconds);
-
   const FollowerOptions& options_;
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // commanded last, path frame
-  double yaw_rate_ = 0.0;
-  double yaw_ = 0.0;          // of the vehicle then
-  bool other_frame_ = false;  // than that of velocity_ and yaw_: the next call's
+  Steering last_;
+  bool other_frame_ = false;  // than that of last_: the next call's
   double speed_limit_ = std::numeric_limits<double>::infinity();
-  bool returning_ = false;  // to the pose that is held
 };
+
+// What both kinds share: a value that changes by at most so much, and the yaw rate that turns by `error` (rad).
+double towards(double from, double to, double largest);
+double yawRateFor(double error, const FollowerOptions& options);
+
+// None: a vehicle that can go in every direction.
+std::unique_ptr<VelocityController> makeController(const FollowerOptions& options,
+                                                   const vehicle::Description* vehicle);
 
 }  // namespace grid_path_planner::following

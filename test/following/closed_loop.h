@@ -9,6 +9,7 @@
 
 #include "grid_path_planner/following/path_follower.h"
 #include "grid_path_planner/simulation/vehicle.h"
+#include "vehicle/description.h"
 
 namespace grid_path_planner::test {
 
@@ -36,7 +37,17 @@ inline double distanceTo(const path::Path& path, const Eigen::Vector3d& position
 struct ClosedLoop {
   explicit ClosedLoop(const following::FollowerOptions& options = {},
                       const Eigen::Vector3d& at = {0, 0, 0}, double yaw = 0.0)
-      : follower(options), vehicle({}, {at, yaw, {}}) {}
+      : follower(pushable(options)), vehicle({}, {at, yaw, {}}) {}
+  ClosedLoop(const following::FollowerOptions& options, const vehicle::Description& described,
+             const simulation::VehicleOptions& simulated, const Eigen::Vector3d& at, double yaw)
+      : follower(options, &described), vehicle(simulated, {at, yaw, {}}) {}
+
+  // A current may take it anywhere.
+  static following::FollowerOptions pushable(following::FollowerOptions options) {
+    options.pose_jump = 0.0;
+    options.hold_distance = 100.0;
+    return options;
+  }
 
   path::Pose pose() const { return {vehicle.state().position + pushed, vehicle.state().yaw}; }
   double speed() const {
@@ -49,7 +60,7 @@ struct ClosedLoop {
 
   // One control step of 0.05 s.
   void step() {
-    following::FollowInput input{vehicle.time(), pose(), check, speed_limit};
+    following::FollowInput input{vehicle.time(), pose(), check, speed_limit, motion};
     if (!pose_known) input.pose.reset();
     command = follower.update(input);
     vehicle.command(command);
@@ -85,6 +96,7 @@ struct ClosedLoop {
   Eigen::Vector3d pushed = Eigen::Vector3d::Zero();
   following::PathClearanceCheck check;
   following::SpeedLimitCheck speed_limit;
+  following::MotionCheck motion;
   bool pose_known = true;
   std::function<void()> each_step;
   base::BodyVelocity command;

@@ -70,6 +70,8 @@ FollowerOptions anyOptions(OddNumbers& numbers) {
   options.missed_waypoint = static_cast<MissedPolicy>(numbers.below(3));
   options.loop = numbers.below(4) == 0;
   options.settle_time = 0.0;
+  options.pose_jump = numbers.below(4) == 0 ? 0.3 : 0.0;
+  options.hold_distance = 100.0;
   options.pursuit_distance = numbers.below(2) == 0 ? 0.01 : 0.4;
   return options;
 }

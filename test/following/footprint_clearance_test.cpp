@@ -8,7 +8,7 @@
 namespace grid_path_planner::following {
 
 using grid::OccupancyGrid;
-using path::Footprint;
+using vehicle::Footprint;
 
 namespace {
 

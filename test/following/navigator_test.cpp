@@ -54,6 +54,22 @@ TEST(Navigator, PlansAgainWhileItDrivesAndKeepsAPathThatIsAboutAsLong) {
                        {"end:ARRIVED", "SUCCEED"}});
 }
 
+TEST(Navigator, PlansFromWhereThePoseJumpedTo) {
+  Story story;
+  expectOrders(story, {{"start", "PLAN"},
+                       {"FOUND 20", "DRIVE(20,0)"},
+                       {"drives 14", ""},
+                       {"end:POSE_JUMP", "PLAN"},
+                       {"FOUND 25", "DRIVE(25,0)"},
+                       {"end:ARRIVED", "SUCCEED"}});
+}
+
+TEST(Navigator, EndsAtAVehicleThatDoesNotGoSideways) {
+  Story story;
+  expectOrders(story,
+               {{"start", "PLAN"}, {"FOUND 20", "DRIVE(20,0)"}, {"end:WRONG_DRIVE", "ABORT"}});
+}
+
 // At eight times the speed of the wall clock the driver's feedback was metres old, and every path seemed another one.
 TEST(Navigator, WhatWasDrivenSinceTheFeedbackIsNoOtherPath) {
   Story story;

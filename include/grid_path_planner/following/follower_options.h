@@ -35,6 +35,8 @@ struct FollowerOptions {
   double yaw_tolerance = 0.05;       // rad
   double settle_time = 0.5;          // s
   bool hold_pose = true;
+  double hold_distance = 0.5;     // m
+  double hold_time = 60.0;        // s
   double pursuit_distance = 0.4;  // m
   double lookahead = 2.0;         // m
   bool loop = false;
@@ -42,6 +44,7 @@ struct FollowerOptions {
   int max_retries = 3;
   double no_progress_timeout = 20.0;  // s
   double blocked_timeout = 0.0;       // s
+  double pose_jump = 0.3;             // m
 };
 
 // Groups of the options, in the order of visitOptions.
@@ -96,6 +99,12 @@ void visitWaypointOptions(FollowerOptions& o, Visitor&& visit) {
             "Whether a vehicle that drifts off after its arrival is brought back; false: it "
             "is left alone",
             ""});
+  visit("hold_distance", o.hold_distance,
+        base::OptionInfo{"How far off it is still brought back; farther, it stands and says so",
+                         "m", 0.0, 100.0});
+  visit("hold_time", o.hold_time,
+        base::OptionInfo{"How long after its arrival it is brought back; 0: not at all", "s", 0.0,
+                         1e6});
   visit(
       "pursuit_distance", o.pursuit_distance,
       base::OptionInfo{"How far ahead on the path it steers to; longer: smoother, rounder corners",
@@ -123,6 +132,10 @@ void visitFailureOptions(FollowerOptions& o, Visitor&& visit) {
   visit("blocked_timeout", o.blocked_timeout,
         base::OptionInfo{"The drive fails when it has been blocked this long; 0: it waits for ever",
                          "s", 0.0, 1e6});
+  visit("pose_jump", o.pose_jump,
+        base::OptionInfo{"The drive ends, and a pose is held no more, when the vehicle's pose "
+                         "changes by so much more than it can drive meanwhile; 0: never",
+                         "m", 0.0, 1000.0});
 }
 
 template <class Visitor>

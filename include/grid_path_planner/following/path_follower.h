@@ -36,6 +36,10 @@
 #include "grid_path_planner/following/follower_options.h"
 #include "grid_path_planner/path/path.h"
 
+namespace grid_path_planner::vehicle {
+struct Description;
+}  // namespace grid_path_planner::vehicle
+
 namespace grid_path_planner::following {
 
 class FollowEvents;
@@ -57,7 +61,9 @@ enum class DriveStatus {
   NO_PROGRESS,
   MISSED_WAYPOINT,
   INVALID_POSE,
-  INVALID_REQUEST  // of a drive that was refused before it began
+  INVALID_REQUEST,  // of a drive that was refused before it began
+  POSE_JUMP,        // the pose changed faster than the vehicle can move
+  WRONG_DRIVE       // the vehicle does not go sideways as it is commanded
 };
 // The enumerator's own name.
 const char* toString(DriveStatus status);
@@ -89,6 +95,9 @@ struct FollowEvent {
 // path from there on) cannot be driven, in a sentence; empty where it can.
 using PathClearanceCheck = std::function<std::string(const std::vector<Eigen::Vector3d>& ahead)>;
 
+// Why the motion that a command begins, and the braking after it, is not free, in a sentence; empty where it is.
+using MotionCheck = std::function<std::string(const base::BodyVelocity& command)>;
+
 // The largest speed (m/s) in the plane that the path ahead allows where the vehicle is now; the polyline is as above.
 using SpeedLimitCheck = std::function<double(const std::vector<Eigen::Vector3d>& ahead)>;
 
@@ -97,15 +106,19 @@ struct FollowInput {
   std::optional<path::Pose> pose;  // in the path's frame; none where it is not known now
   PathClearanceCheck check = {};   // none: every path is free
   SpeedLimitCheck speed = {};      // none: only the options limit it
+  MotionCheck motion = {};         // none: every motion is free
   std::string pose_problem =
       {};                 // why there is no pose, in a sentence; empty: nothing more is known
   std::string hold = {};  // why the vehicle must not move now, in a sentence; empty: it may
+  double pose_age = 0.0;  // s, of the pose; the next pose that is no older than this one is not new
 };
 
 class PathFollower {
  public:
-  // Throws InputError for options that checkFollowerOptions refuses.
-  explicit PathFollower(const FollowerOptions& options = {});
+  // Throws InputError for options that checkFollowerOptions refuses. A vehicle whose description (checked) is given is
+  // steered as its drive can, and heights do not count where it cannot change its own; none: it can go in every direction.
+  explicit PathFollower(const FollowerOptions& options = {},
+                        const vehicle::Description* vehicle = nullptr);
   ~PathFollower();
 
   // From the next update on. Throws InputError, then nothing has changed.
@@ -138,6 +151,8 @@ class PathFollower {
   bool active() const;
   // Whether it is BLOCKED by what the check says of the path ahead, and by nothing else.
   bool obstructed() const { return state_ == FollowState::BLOCKED && obstructed_; }
+  // Whether a vehicle that has arrived is not held where it should be, though hold_pose is set; message() says why.
+  bool holdingEnded() const;
   // Of the drive that ended last; NONE while one goes on.
   DriveStatus status() const { return status_; }
   // One sentence about how that was, or why the vehicle is blocked.
@@ -163,15 +178,24 @@ class PathFollower {
   base::BodyVelocity velocityFor(const FollowInput& input);
   base::BodyVelocity holdEnd(const FollowInput& input, double seconds);
   void limitSpeed(const FollowInput& input, const std::vector<Eigen::Vector3d>& ahead);
-  bool isBlocked(const FollowInput& input);
   std::string whyNot(const FollowInput& input) const;
   void block(double time, DriveStatus cause, const std::string& why);
-  base::BodyVelocity drive(const path::Pose& vehicle, double time, double seconds);
+  FollowInput levelled(FollowInput input) const;
+  base::BodyVelocity drive(const FollowInput& input, double seconds);
+  base::BodyVelocity steer(const FollowInput& input, double seconds);
+  void unblock();
+  bool jumped(const FollowInput& input);
+  bool holds(const FollowInput& input);
+  void giveUpHolding(const std::string& why);
   void reportHalfway();
   void end(const DriveEnd& ending);
   void standStill();
 
+  // What holds and watches a drive beside its progress.
+  struct Watch;
+
   FollowerOptions options_;
+  const std::unique_ptr<const vehicle::Description> vehicle_;  // null: not described
   FollowState state_ = FollowState::IDLE;
   bool starts_paused_ = false;  // the next path
   DriveStatus status_ = DriveStatus::NONE;
@@ -185,6 +209,7 @@ class PathFollower {
   std::optional<double> blocked_since_;
   bool obstructed_ = false;       // when it was blocked last: by the path ahead
   std::optional<double> length_;  // m that were left when driving began; 0 once half are driven
+  const std::unique_ptr<Watch> watch_;
 };
 
 }  // namespace grid_path_planner::following

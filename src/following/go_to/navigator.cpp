@@ -24,6 +24,7 @@ constexpr double kFreeAgain = 2.0;      // s of driving, after which the path ah
 constexpr double kSlack = 0.5;          // m that lengths of paths may differ by for nothing
 constexpr double kReplacedPause = 0.2;  // s
 constexpr int kMostReplaced = 25;
+constexpr int kMostJumps = 20;        // of the pose, before one goal is reached
 constexpr int kTurns = 4;             // quarters
 constexpr int kMostAlternatives = 2;  // of about the same length, while the path ahead is occupied
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
@@ -44,8 +45,8 @@ std::string answerText(const std::optional<Status>& status, const std::string& m
 
 // After these no other drive is tried.
 bool endsTheGoal(const std::optional<DriveStatus>& status) {
-  return isOneOf(status,
-                 {DriveStatus::CANCELLED, DriveStatus::INVALID_POSE, DriveStatus::INVALID_REQUEST});
+  return isOneOf(status, {DriveStatus::CANCELLED, DriveStatus::INVALID_POSE,
+                          DriveStatus::INVALID_REQUEST, DriveStatus::WRONG_DRIVE});
 }
 
 }  // namespace
@@ -85,7 +86,7 @@ void Navigator::start(double now) {
   drop();
   nearest_ = recovered_at_ = kUnknown;
   next_step_ = 0;
-  replaced_ = 0;
+  replaced_ = jumps_ = 0;
   sentence_ = "plans";
   plan(0.0, now);
 }
@@ -242,9 +243,20 @@ void Navigator::driveEnded(std::optional<DriveStatus> status, const std::string&
       finish(Kind::SUCCEED, arrival_note_.empty() ? reason : reason + "; " + arrival_note_, now);
     else if (endsTheGoal(status))
       finish(Kind::ABORT, reason, now);
+    else if (status == DriveStatus::POSE_JUMP && ++jumps_ <= kMostJumps)
+      planFromHere(reason, now);
     else
       recover(reason, now);
   }
+}
+
+// The vehicle is elsewhere than where the path was planned from, and nothing else is wrong.
+void Navigator::planFromHere(const std::string& reason, double now) {
+  tell(Kind::WARN, reason + "; plans anew");
+  forgetPlan();
+  blocked_since_.reset();
+  state_ = NavigatorState::PLANNING;
+  plan(tolerance_, now);
 }
 
 void Navigator::tick(double now) {

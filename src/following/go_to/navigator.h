@@ -119,6 +119,7 @@ class Navigator {
   void notePathAhead(const NavigatorDrive& drive, double now);
   bool isReplanDue(double now) const;
 
+  void planFromHere(const std::string& reason, double now);
   void recover(const std::string& reason, double now);
   bool beginStep(RecoveryStep step, double now);
   bool backOff();
@@ -148,6 +149,7 @@ class Navigator {
   double planned_at_ = 0.0;              // when the last planning was asked for
   std::optional<double> plan_again_at_;  // PLANNING: another's request took the planner's place
   int replaced_ = 0;                     // how often in a row that happened
+  int jumps_ = 0;                        // of the vehicle's pose, so far
   std::string arrival_note_;             // what a plan with tolerance said
 
   std::optional<path::Pose> remaining_from_;  // where the vehicle was when it was told
