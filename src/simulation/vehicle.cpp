@@ -7,6 +7,8 @@
 #include "grid_path_planner/base/decimal_text.h"
 #include "simulation/obstacle_distance.h"
 #include "simulation/swept_sphere.h"
+#include "vehicle/map_obstacles.h"
+#include "vehicle/outline.h"
 
 namespace grid_path_planner::simulation {
 
@@ -14,13 +16,16 @@ using base::BodyVelocity;
 using base::decimalText;
 using base::InputError;
 using grid::OccupancyGrid;
+using vehicle::Footprint, vehicle::FootprintSweep, vehicle::Motion;
 
 namespace {
 
 constexpr double kContactEnds = 1e-3;  // m, beyond the vehicle's radius
 constexpr double kTouch = 1e-9;        // m, below which two lengths are the same
 constexpr int kContactHalvings = 40;   // of the piece in which a contact begins
-constexpr double kMostCells = 1e8;     // that one step looks at: a fraction of a second
+constexpr double kFootprintShare =
+    1e-4;                           // of a step's motion, to which a footprint's contact is found
+constexpr double kMostCells = 1e8;  // that one step looks at: a fraction of a second
 
 std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds * 1e9);
@@ -36,6 +41,10 @@ double normalized(double angle) {
   return turned <= -M_PI ? M_PI : turned;
 }
 
+FootprintSweep sweepOf(const Footprint& footprint, const OccupancyGrid& map, int occupied_min) {
+  return {footprint, map.geometry(), vehicle::mapObstacles(map, {0, occupied_min}, false)};
+}
+
 // So short that no cell is skipped.
 double longestPiece(const VehicleOptions& o, double resolution) {
   return std::min(0.5 * resolution, o.vehicle_radius);
@@ -43,7 +52,9 @@ double longestPiece(const VehicleOptions& o, double resolution) {
 
 // How far from the vehicle's middle the cells of the map are looked at.
 double reachOf(const VehicleOptions& o) {
-  return o.vehicle_radius + 2.0 * kContactEnds;
+  return std::max(o.vehicle_radius,
+                  Footprint::fromText("footprint", o.footprint).circumscribedRadius()) +
+         2.0 * kContactEnds;
 }
 
 // Throws InputError where a step would take longer than anybody waits for, its end by a signal included.
@@ -90,6 +101,8 @@ Vehicle::Vehicle(const VehicleOptions& options, const VehicleState& initial) {
 void Vehicle::setOptions(const VehicleOptions& options) {
   checkVehicleOptions(options);
   if (map_) checkCells(options, map_->geometry().resolution());
+  footprint_ =
+      std::make_shared<const Footprint>(Footprint::fromText("footprint", options.footprint));
   options_ = options;
 }
 
@@ -115,8 +128,16 @@ void Vehicle::command(const BodyVelocity& velocity) {
                      std::to_string(velocity.surge) + ", sway " + std::to_string(velocity.sway) +
                      ", heave " + std::to_string(velocity.heave) + ", yaw rate " +
                      std::to_string(velocity.yaw_rate));
-  commanded_ = velocity;
-  command_ends_ns_ = time_ns_ + nanoseconds(options_.cmd_vel_timeout);
+  waiting_.push_back({time_ns_ + nanoseconds(options_.dead_time), velocity});
+  beginCommands();
+}
+
+void Vehicle::beginCommands() {
+  while (!waiting_.empty() && waiting_.front().begins_ns <= time_ns_) {
+    commanded_ = waiting_.front().velocity;
+    command_ends_ns_ = waiting_.front().begins_ns + nanoseconds(options_.cmd_vel_timeout);
+    waiting_.pop_front();
+  }
 }
 
 bool Vehicle::commandRunsOut() const {
@@ -134,12 +155,14 @@ void Vehicle::reset(const VehicleState& state) {
   state_.yaw = normalized(state.yaw);
   rock();
   commanded_ = {};
+  waiting_.clear();
   contacts_ = 0;
   in_contact_ = false;
   touched_.clear();
 }
 
 void Vehicle::step() {
+  beginCommands();
   const BodyVelocity before = state_.velocity;
   changeVelocity(options_.time_step);
   move(options_.time_step, before);
@@ -179,6 +202,9 @@ void Vehicle::changeVelocity(double seconds) {
   v.sway = towards(v.sway, target.sway, share, linear);
   v.heave = towards(v.heave, target.heave, share, linear);
   v.yaw_rate = towards(v.yaw_rate, target.yaw_rate, share, options_.max_yaw_acceleration * seconds);
+  if (options_.least_turning_radius <= 0.0) return;
+  const double fastest = std::abs(v.surge) / options_.least_turning_radius;
+  v.yaw_rate = std::clamp(v.yaw_rate, -fastest, fastest);
 }
 
 // Trapezoids in the body frame, turned by the yaw at half of the step.
@@ -191,13 +217,35 @@ void Vehicle::move(double seconds, const BodyVelocity& before) {
   const Eigen::Vector2d motion(std::cos(yaw) * surge - std::sin(yaw) * sway,
                                std::sin(yaw) * surge + std::cos(yaw) * sway);
   const Eigen::Vector3d from = state_.position;
-  const bool free_in_plane = moveInPlane(motion);
+  const bool outlined = map_ && !footprint_->empty();
+  const bool free_in_plane = outlined ? moveFootprint(motion, turn) : moveInPlane(motion);
   if (!free_in_plane) state_.velocity.surge = state_.velocity.sway = 0.0;
+  if (!free_in_plane && outlined) state_.velocity.yaw_rate = 0.0;
   state_.position.z() += 0.5 * (before.heave + state_.velocity.heave) * seconds;
   const bool free_in_world = moveInWorld(from);
   if (!free_in_world) state_.velocity.surge = state_.velocity.sway = state_.velocity.heave = 0.0;
   if (in_contact_ && free_in_plane && free_in_world && isClear()) in_contact_ = false;
-  state_.yaw = normalized(state_.yaw + turn);
+  if (!outlined) state_.yaw = normalized(state_.yaw + turn);
+}
+
+// Drives and turns up to the first contact. One that stands in an obstacle may leave it.
+bool Vehicle::moveFootprint(const Eigen::Vector2d& motion, double turn) {
+  const FootprintSweep sweep = sweepOf(*footprint_, *map_, options_.occupied_min);
+  const Eigen::Vector2d from = state_.position.head<2>();
+  const auto blocked = [&](double share) {
+    const Motion part{from, from + share * motion, state_.yaw, share * turn};
+    return sweep.first(part, base::StopToken()).has_value();
+  };
+  double free = 1.0;
+  if (!sweep.standing(from, state_.yaw) && blocked(1.0)) {
+    free = 0.0;
+    for (double closed = 1.0; closed - free > kFootprintShare;)
+      (blocked(0.5 * (free + closed)) ? closed : free) = 0.5 * (free + closed);
+    startContact("projected_map");
+  }
+  state_.position.head<2>() = from + free * motion;
+  state_.yaw = normalized(state_.yaw + free * turn);
+  return free == 1.0;
 }
 
 // Moves along `motion` up to the first contact, in pieces so short that no cell is skipped. Returns
@@ -259,9 +307,17 @@ void Vehicle::startContact(const std::string& name) {
 
 bool Vehicle::isClear() const {
   const double reach = options_.vehicle_radius + kContactEnds;
-  return (!map_ || clearance(state_.position.head<2>()) > reach) &&
+  if (map_ && !footprint_->empty() && touchesWith(kContactEnds)) return false;
+  return (!map_ || !footprint_->empty() || clearance(state_.position.head<2>()) > reach) &&
          (!world_ || !world_->nearest(state_.position, reach)) &&
          (!bodies_ || !bodies_->at(time()).nearest(state_.position, reach));
+}
+
+bool Vehicle::touchesWith(double margin) const {
+  const Footprint grown = vehicle::Outline(*footprint_).grown(margin).polygon();
+  return sweepOf(grown, *map_, options_.occupied_min)
+      .standing(state_.position.head<2>(), state_.yaw)
+      .has_value();
 }
 
 double Vehicle::clearance(const Eigen::Vector2d& position) const {

@@ -10,7 +10,8 @@
 //
 // Guaranteed: the same calls give the same states, bit for bit; no clock is read, time is the sum
 // of the steps. The vehicle stops by itself cmd_vel_timeout after the last command. Its disc does
-// not enter an occupied cell: the motion in the plane ends at the first contact. Its sphere does not
+// not enter an occupied cell: the motion in the plane ends at the first contact; with a footprint, which is the outline then,
+// so do turns. Its sphere does not
 // enter a surface of the world: all motion but the turn ends at the first contact. A vehicle that
 // was put into an obstacle may leave it. Not modelled: water,
 // currents; the map is flat, so its obstacles stand at every depth. Outside map and world there are no
@@ -21,6 +22,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
 
@@ -29,6 +31,10 @@
 #include "grid_path_planner/simulation/moving_bodies.h"
 #include "grid_path_planner/simulation/vehicle_options.h"
 #include "grid_path_planner/simulation/world.h"
+
+namespace grid_path_planner::vehicle {
+class Footprint;
+}  // namespace grid_path_planner::vehicle
 
 namespace grid_path_planner::simulation {
 
@@ -106,18 +112,27 @@ class Vehicle {
   void changeVelocity(double seconds);
   void move(double seconds, const base::BodyVelocity& before);
   bool moveInPlane(const Eigen::Vector2d& motion);
+  bool moveFootprint(const Eigen::Vector2d& motion, double turn);
+  void beginCommands();
   bool moveInWorld(const Eigen::Vector3d& from);
   void touchBodies();
   void rock();
   void startContact(const std::string& name);
   bool isClear() const;
+  bool touchesWith(double margin) const;
   double clearance(const Eigen::Vector2d& position) const;
 
   VehicleOptions options_;
   VehicleState state_;
   base::BodyVelocity commanded_;
   std::int64_t command_ends_ns_ = 0;
+  struct Waiting {
+    std::int64_t begins_ns;
+    base::BodyVelocity velocity;
+  };
+  std::deque<Waiting> waiting_;  // commands in their dead time
   std::int64_t time_ns_ = 0;
+  std::shared_ptr<const vehicle::Footprint> footprint_;  // empty: the disc
   std::shared_ptr<const grid::OccupancyGrid> map_;
   std::shared_ptr<const World> world_;
   std::shared_ptr<const MovingBodies> bodies_;

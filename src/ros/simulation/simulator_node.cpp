@@ -14,6 +14,7 @@
 #include "ros/guard/parameters.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 #include "ros/messages/file_kinds.h"
+#include "ros/messages/vehicle_parameters.h"
 #include "ros/messages/velocity_message.h"
 #include "ros/simulation/transform_message.h"
 #include "simulation/camera/pinhole.h"
@@ -71,10 +72,11 @@ std::vector<geometry_msgs::TransformStamped> fixedTransforms(const SimulatorOpti
 SimulatorOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
   SimulatorOptions options;
   loadParameters(private_nh, options);
+  if (const auto vehicle = loadVehicle(private_nh)) takeFromVehicle(options, *vehicle);
   options.world = files.named("world", options.world);
   options.sensor_faults = files.named("sensor_faults", options.sensor_faults);
   checkSimulatorOptions(options);
-  warnUnknownParameters(private_nh, optionNames<SimulatorOptions>());
+  warnUnknownParameters(private_nh, withVehicleNames(optionNames<SimulatorOptions>()));
   return options;
 }
 

@@ -15,6 +15,7 @@ using base::decimalText;
 using base::InputError;
 using simulation::checkDepthCameraOptions;
 using simulation::checkVehicleOptions;
+using vehicle::unite;
 
 namespace {
 
@@ -32,6 +33,28 @@ void checkFrames(const SimulatorOptions& o) {
 }
 
 }  // namespace
+
+void takeFromVehicle(SimulatorOptions& options, const vehicle::Description& described) {
+  simulation::VehicleOptions& o = options.vehicle;
+  const SimulatorOptions unset;
+  const simulation::VehicleOptions& u = unset.vehicle;
+  unite("max_surge_speed", o.max_surge_speed, u.max_surge_speed, described.max_speed);
+  unite("max_sway_speed", o.max_sway_speed, u.max_sway_speed, described.max_sideways_speed);
+  unite("max_heave_speed", o.max_heave_speed, u.max_heave_speed, described.max_vertical_speed);
+  unite("max_yaw_rate", o.max_yaw_rate, u.max_yaw_rate, described.max_yaw_rate);
+  unite("max_acceleration", o.max_acceleration, u.max_acceleration, described.max_acceleration);
+  unite("max_yaw_acceleration", o.max_yaw_acceleration, u.max_yaw_acceleration,
+        described.max_yaw_acceleration);
+  unite("least_turning_radius", o.least_turning_radius, u.least_turning_radius,
+        described.least_turning_radius);
+  unite("response_time", o.response_time, u.response_time, described.time_constant);
+  unite("dead_time", o.dead_time, u.dead_time, described.dead_time);
+  unite("vehicle_radius", o.vehicle_radius, u.vehicle_radius,
+        outlineOf(described).circumscribedRadius());
+  uniteOutline("footprint", o.footprint, described);
+  if (!described.changesHeight())
+    unite("initial_z", options.initial.z, unset.initial.z, described.base_height);
+}
 
 void checkSimulatorOptions(const SimulatorOptions& o) {
   checkOptionLimits(o);

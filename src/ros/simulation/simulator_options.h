@@ -10,6 +10,7 @@
 #include "ros/simulation/sensor_frames.h"
 #include "simulation/camera/image_camera_options.h"
 #include "simulation/sensors/navigation_sensor_options.h"
+#include "vehicle/description.h"
 
 namespace grid_path_planner::nodes {
 
@@ -136,6 +137,10 @@ void visitOptions(SimulatorOptions& o, Visitor&& visit) {
   });
   visitOptions(o.reading, visit);
 }
+
+// Sets outline, limits, response and, of a vehicle that stays on its plane, its height. Throws InputError naming an option that
+// is neither its default nor what the description says.
+void takeFromVehicle(SimulatorOptions& options, const vehicle::Description& described);
 
 // Throws InputError naming the option for a value outside its limits, a range of the camera that
 // holds nothing, a factor other than 1 without a clock, navigation sensors that cannot be, an image
