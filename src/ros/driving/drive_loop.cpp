@@ -26,8 +26,8 @@ using following::FollowState;
 using following::Join;
 using following::Obstruction;
 using following::PathFollower;
-using path::Footprint;
 using path::Path;
+using vehicle::Footprint;
 
 namespace {
 
@@ -60,7 +60,8 @@ DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& optio
       footprint_(Footprint::fromText("check_footprint", options.check_footprint)),
       transforms_(transforms),
       callbacks_(std::move(callbacks)),
-      follower_(options.follower),
+      follower_(options.follower, options.vehicle ? &*options.vehicle : nullptr),
+      gate_(options.vehicle ? &*options.vehicle : nullptr),
       velocity_publisher_(ros::NodeHandle(nh).advertise<geometry_msgs::Twist>("cmd_vel", 10)) {
   ros::NodeHandle own(nh);
   own.setCallbackQueue(&thread_.queue());
@@ -187,7 +188,9 @@ void DriveLoop::follow(const ros::Time& now) {
   FollowInput input;
   input.time = now.toSec();
   input.hold = whyHeld();
+  gate_.tick(input.time, 1.0 / options_.control_rate);
   if (!follower_.path().empty() && input.hold.empty()) findVehicle(input);
+  if (gate_.checks() && options_.check_map && input.pose) checkMotions(input);
   if (options_.check_map || limits_.grid)
     input.check = [this](const std::vector<Eigen::Vector3d>& ahead) { return whyNotFree(ahead); };
   if (limits_.grid)
@@ -213,12 +216,23 @@ std::string DriveLoop::whyHeld() const {
 
 void DriveLoop::findVehicle(FollowInput& input) const {
   try {
-    input.pose = transforms_
-                     .placeVehicle({follower_.path().frame_id, options_.tf_timeout,
-                                    Moving::WITH_VEHICLE, options_.base_frame})
-                     .level();
+    const Placed placed = transforms_.placeVehicle({follower_.path().frame_id, options_.tf_timeout,
+                                                    Moving::WITH_VEHICLE, options_.base_frame});
+    input.pose = placed.level();
+    input.pose_age = placed.age;
   } catch (const TransformError& error) {
     input.pose_problem = error.what();
+  }
+}
+
+void DriveLoop::checkMotions(FollowInput& input) const {
+  try {
+    const Placed placed =
+        transforms_.placeVehicle({frameInMap(map_.map.frame_id, options_.map_frame),
+                                  options_.tf_timeout, Moving::WITH_VEHICLE, options_.base_frame});
+    input.motion = gate_.check(placed.level(), placed.age, *map_.map.grid, options_.limits);
+  } catch (const TransformError& error) {
+    input.motion = [what = std::string(error.what())](const BodyVelocity&) { return what; };
   }
 }
 
@@ -298,11 +312,13 @@ void DriveLoop::yieldToJoystick() {
 void DriveLoop::publish(const BodyVelocity& velocity) {
   if (joystick_.commands() && !stopped_) {
     silent_ = true;  // the joystick's velocities are in force, and its zero when it is let go
+    gate_.sent({});
     return;
   }
   const bool driven = follower_.active() && follower_.state() != FollowState::PAUSED;
   if (!driven && !stopped_ && velocity.isZero() && silent_) return;
   velocity_publisher_.publish(velocityToMessage(velocity));
+  gate_.sent(velocity);
   if (!velocity.isZero()) map_.driven.note(now_);
   silent_ = !driven && velocity.isZero();  // sent: what threw is tried again
 }
@@ -349,6 +365,7 @@ DriveStanding DriveLoop::standingNow() const {
           follower_.distanceRemaining(),
           follower_.timeRemaining(),
           follower_.obstructed(),
+          follower_.holdingEnded(),
           follower_.missedWaypoints(),
           follower_.positionError(),
           follower_.yawError()};

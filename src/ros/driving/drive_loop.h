@@ -30,8 +30,8 @@
 #include <vector>
 
 #include "grid_path_planner/following/path_follower.h"
-#include "path/footprint/footprint.h"
 #include "ros/driving/map_liveness.h"
+#include "ros/driving/motion_gate.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/driving/speed_limit_receiver.h"
 #include "ros/guard/master/master_watch.h"
@@ -39,6 +39,7 @@
 #include "ros/guard/scheduling/control_thread.h"
 #include "ros/input/frame_lookup.h"
 #include "ros/input/manual_control.h"
+#include "vehicle/footprint.h"
 
 namespace grid_path_planner::nodes {
 
@@ -52,6 +53,7 @@ struct DriveStanding {
   double distance_remaining = 0.0;  // m
   double time_remaining = 0.0;      // s
   bool obstructed = false;          // blocked by the path ahead
+  bool holding_ended = false;       // it has arrived, is off, and is not brought back
   std::vector<int> missed;
   double position_error = 0.0;  // m
   double yaw_error = 0.0;       // rad
@@ -118,6 +120,7 @@ class DriveLoop {
   void follow(const ros::Time& now);
   std::string whyHeld() const;
   void findVehicle(following::FollowInput& input) const;
+  void checkMotions(following::FollowInput& input) const;
   std::string whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const;
   std::vector<Eigen::Vector3d> inFrame(const std::string& frame,
                                        const std::vector<Eigen::Vector3d>& points) const;
@@ -133,11 +136,12 @@ class DriveLoop {
   DriveStanding standingNow() const;
 
   NavigatePathOptions options_;
-  path::Footprint footprint_;  // of the options
+  vehicle::Footprint footprint_;  // of the options
   FrameTransforms& transforms_;
   const Callbacks callbacks_;
   const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   following::PathFollower follower_;
+  MotionGate gate_;
   unsigned drive_ = 0;  // started so far
   unsigned handovers_ = 0;
   MapLiveness map_;

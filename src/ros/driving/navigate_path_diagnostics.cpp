@@ -10,7 +10,9 @@ using following::FollowState;
 void NavigatePathNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const DriveStanding standing = loop_->standing();
   const bool warn = standing.state == FollowState::BLOCKED || standing.state == FollowState::FAILED;
-  status.summary(warn ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+  status.summary(standing.holding_ended ? DiagnosticStatus::ERROR
+                 : warn                 ? DiagnosticStatus::WARN
+                                        : DiagnosticStatus::OK,
                  std::string(toString(standing.state)) + ": " + standing.message);
   status.add("waypoint", standing.waypoint + 1);
   status.add("waypoints", standing.waypoints);
@@ -40,6 +42,19 @@ void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& 
   status.add("heartbeat", life.map.data.beats());
   if (!life.map.data.newest().isZero()) status.add("age (s)", life.map.data.age(Instant::now()));
   status.add("last sign of life (s ago)", life.silence());
+}
+
+void NavigatePathNode::diagnoseVehicle(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const bool kept_off = options_.limits.radius > 0.0 || !options_.check_footprint.empty();
+  if (options_.vehicle && options_.check_map)
+    status.summary(DiagnosticStatus::OK, "every motion is checked with its outline");
+  else if (options_.vehicle)
+    status.summary(DiagnosticStatus::WARN, "no motion is checked: check_map is false");
+  else
+    status.summary(kept_off ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                   "not described: it is driven as a point that goes sideways, and no motion is "
+                   "checked (parameter vehicle, doc/vehicle.md)");
+  if (options_.vehicle) status.add("drive", base::choiceName(options_.vehicle->drive));
 }
 
 void NavigatePathNode::diagnoseOthers(diagnostic_updater::DiagnosticStatusWrapper& status) {

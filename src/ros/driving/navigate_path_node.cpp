@@ -21,6 +21,7 @@
 #include "ros/guard/parameters.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 #include "ros/guard/scheduling/log_throttle.h"
+#include "ros/messages/vehicle_parameters.h"
 #include "ros/messages/waypoint_reading.h"
 
 namespace grid_path_planner::nodes {
@@ -45,11 +46,16 @@ constexpr double kDiagnosticsPeriod = 1.0;  // s
 NavigatePathOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
   NavigatePathOptions options;
   loadParameters(private_nh, options);
+  options.vehicle = loadVehicle(private_nh);
+  if (options.require_vehicle && !options.vehicle)
+    throw InputError("require_vehicle is set and no vehicle is described: " +
+                     private_nh.resolveName("vehicle") + " is missing (doc/vehicle.md)");
+  takeFromVehicle(options);
   options.config_filename = files.named("config_filename", options.config_filename);
   options.base_frame = frameName(options.base_frame);
   options.map_frame = frameName(options.map_frame);
   checkNavigatePathOptions(options);
-  warnUnknownParameters(private_nh, optionNames<NavigatePathOptions>());
+  warnUnknownParameters(private_nh, withVehicleNames(optionNames<NavigatePathOptions>()));
   return options;
 }
 
@@ -172,6 +178,7 @@ void NavigatePathNode::startTimers() {
   diagnostics_.setHardwareID("none");
   diagnostics_.add("path following", this, &NavigatePathNode::diagnose);
   diagnostics_.add("map", this, &NavigatePathNode::diagnoseMap);
+  diagnostics_.add("vehicle", this, &NavigatePathNode::diagnoseVehicle);
   diagnostics_.add("other nodes", this, &NavigatePathNode::diagnoseOthers);
   clock_timer_ = guardedTimer(nh_, kClockPeriod, [this] { waitForTime(); });
   feedback_timer_ = guardedTimer(nh_, kFeedbackPeriod, [this] { publishFeedback(); });
@@ -183,6 +190,8 @@ void NavigatePathNode::startTimers() {
 void NavigatePathNode::use(NavigatePathOptions options) {
   options.base_frame = frameName(options.base_frame);
   options.map_frame = frameName(options.map_frame);
+  options.vehicle = options_.vehicle;
+  takeFromVehicle(options);
   checkNavigatePathOptions(options);
   if (options.config_filename != options_.config_filename)
     throw InputError("config_filename cannot be changed while the node runs: use the action");
@@ -397,8 +406,20 @@ void NavigatePathNode::takeReports() {
     logEvent(*report.event);
     if (report.event->kind != FollowEvent::Kind::ENDED || report.drive != drive_) continue;
     if (report.standing.status == DriveStatus::ARRIVED) finished_goals_.end();
+    if (report.standing.status == DriveStatus::POSE_JUMP && !goal_active_) rejoinFile();
     if (goal_active_ && !goal_is_read_)
       finishGoal(report.standing.status, report.standing.message, report.standing);
+  }
+}
+
+// A file has no planner that would say how to go on from where the vehicle is now.
+void NavigatePathNode::rejoinFile() {
+  if (options_.config_filename.empty()) return;
+  ROS_WARN_STREAM("The file is joined anew at its point nearest to the vehicle");
+  try {
+    drive(file_, Join::NEAREST, handovers_);
+  } catch (const InputError& error) {
+    ROS_ERROR_STREAM("The waypoints are refused: " << error.what());
   }
 }
 

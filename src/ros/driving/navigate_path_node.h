@@ -101,6 +101,7 @@ class NavigatePathNode {
   void onPreempt();
   void startGoal(const std::function<path::Path()>& read, following::Join join, unsigned handovers);
   void readGoal(const std::string& filename);
+  void rejoinFile();
   bool answer(const Answer& answer, std_srvs::Trigger::Response& response);
   Answer cancelByHand();
   bool endDrivesUntilNow(const std::string& reason);
@@ -113,6 +114,7 @@ class NavigatePathNode {
   void publishFeedback();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void diagnoseVehicle(diagnostic_updater::DiagnosticStatusWrapper& status);
   void diagnoseOthers(diagnostic_updater::DiagnosticStatusWrapper& status);
   void callLater(std::function<void()> work);
 

@@ -1,12 +1,14 @@
 // The parameters of the node `navigate_path`.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "grid_path_planner/following/follower_options.h"
 #include "grid_path_planner/following/path_clearance_check.h"
 #include "ros/guard/scheduling/realtime_priority.h"
 #include "ros/messages/zero_heading.h"
+#include "vehicle/description.h"
 
 namespace grid_path_planner::nodes {
 
@@ -18,9 +20,11 @@ struct NavigatePathOptions {
   following::FollowerOptions follower;
   bool check_map = true;
   following::ClearanceLimits limits;
-  std::string check_footprint;    // "[[x, y], ...]", m; "": check_radius alone
-  double map_timeout = 3.0;       // s, wall time
-  double map_data_timeout = 3.0;  // s
+  std::string check_footprint;  // "[[x, y], ...]", m; "": check_radius alone
+  bool require_vehicle = false;
+  std::optional<vehicle::Description> vehicle = {};  // from ~vehicle
+  double map_timeout = 3.0;                          // s, wall time
+  double map_data_timeout = 3.0;                     // s
   std::string map_frame = "map";
   bool use_speed_limit = false;
   std::string base_frame = "base_link";
@@ -48,6 +52,11 @@ void visitMapOptions(NavigatePathOptions& o, Visitor&& visit) {
           "Corners of a vehicle that is not round, as path_planner's footprint: it stops before it "
           "would meet occupied cells, looking along the path; empty: check_radius alone",
           "m"});
+  visit("require_vehicle", o.require_vehicle,
+        base::OptionInfo{"Whether the node refuses to start without the description of a vehicle "
+                         "(doc/vehicle.md); false: without one it drives as a point and checks no "
+                         "motion",
+                         ""});
   visit("occupied_min", o.limits.thresholds.occupied_min,
         base::OptionInfo{"Cells with at least this occupancy are occupied; lower: more obstacles",
                          "%", 1, 100});
@@ -120,6 +129,11 @@ void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
                          "where the two never drive at once",
                          ""});
 }
+
+// Sets what the vehicle's description says: speeds, accelerations, how long a pose is held, and the outline for the
+// check ahead. Throws InputError naming an option that is neither its default nor what the description says, and a check_radius
+// inside the outline.
+void takeFromVehicle(NavigatePathOptions& options);
 
 // Throws InputError naming the option for a value outside its limits, options that
 // checkFollowerOptions refuses, and an empty map_frame or base_frame.

@@ -18,6 +18,7 @@
 #include "ros/guard/process/memory_limit_line.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 #include "ros/messages/file_kinds.h"
+#include "ros/messages/vehicle_parameters.h"
 
 namespace grid_path_planner::nodes {
 
@@ -54,10 +55,12 @@ void checkNames(const PathPlannerNodeOptions& options, const NodeFiles& files) {
 PathPlannerNodeOptions loadOptions(const ros::NodeHandle& private_nh, const NodeFiles& files) {
   PathPlannerNodeOptions options;
   loadParameters(private_nh, options);
+  options.vehicle = loadVehicle(private_nh);
+  takeFromVehicle(options);
   options.waypoints_file = files.named("waypoints_file", options.waypoints_file);
   checkPathPlannerNodeOptions(options);
   checkNames(options, files);
-  auto known = optionNames<PathPlannerNodeOptions>();
+  auto known = withVehicleNames(optionNames<PathPlannerNodeOptions>());
   known.push_back("diagnostic_period");  // diagnostic_updater's
   warnUnknownParameters(private_nh, known);
   return options;

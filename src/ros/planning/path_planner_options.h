@@ -1,6 +1,7 @@
 // Options of the node path_planner: those of the planning itself and those of the node around it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "grid_path_planner/base/options.h"
 #include "grid_path_planner/planning/path_planner.h"
 #include "ros/messages/zero_heading.h"
+#include "vehicle/description.h"
 
 namespace grid_path_planner::nodes {
 
@@ -29,6 +31,7 @@ struct PathPlannerNodeOptions {
   bool record_search = true;
   double full_map_period = 10.0;  // s, steady clock
   bool publish_rectangles = false;
+  std::optional<vehicle::Description> vehicle = {};  // from ~vehicle
 };
 
 // A group of the options, in the order of visitOptions.
@@ -102,7 +105,11 @@ void visitOptions(PathPlannerNodeOptions& o, Visitor&& visit) {
                          ""});
 }
 
-// Throws InputError naming the option.
+// Sets what the vehicle's description says: outline, least turning radius, and where no radius is set that of the outline
+// and 0.05 m. Throws InputError naming an option that is neither its default nor what the description says.
+void takeFromVehicle(PathPlannerNodeOptions& options);
+
+// Throws InputError naming the option, also for a radius inside the vehicle's outline.
 void checkPathPlannerNodeOptions(const PathPlannerNodeOptions& options);
 
 }  // namespace grid_path_planner::nodes
