@@ -50,11 +50,12 @@ void visitOptions(CostPlannerOptions& o, Visitor&& visit) {
                        "names no tolerance; 0: no path then",
                        "m", 0, 10000}
           .under("What is asked for"));
-  visit(
-      "start_escape_radius", o.start_escape_radius,
-      base::OptionInfo{"How far the nearest passable cell may be from a start of cost 253 or 254; "
-                       "0: no path then",
-                       "m", 0, 10000});
+  visit("start_escape_radius", o.start_escape_radius,
+        base::OptionInfo{
+            "How far the nearest passable cell may be from a start of cost 253 or 254, on "
+            "a straight line that comes no nearer to cost 254 than the start is; from inside cost "
+            "254 it leads out by the nearest edge; 0: no path then",
+            "m", 0, 10000});
   visit("smooth", o.smooth,
         base::OptionInfo{
             "Whether a path over the grid is straightened where that is legal and costs nothing; "

@@ -13,17 +13,16 @@ using path::distanceToClass;
 
 namespace {
 
-// As inflation allows for resolutions that are 32-bit floats, and for the rounding of positions.
 constexpr double kRelativeSlack = 1e-7;
 constexpr double kSlack = 1e-9;  // m
 // In cells: a line that is no deeper in a cell than this does not enter it.
 constexpr double kRim = 1e-6;
 
+}  // namespace
+
 bool atLeast(double distance, double least) {
   return distance >= least * (1.0 - kRelativeSlack) - kSlack;
 }
-
-}  // namespace
 
 double EndSegments::toBorder(const Eigen::Vector2d& point) const {
   const grid::GridGeometry& geometry = costs_.geometry();

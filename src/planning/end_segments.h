@@ -15,6 +15,10 @@
 
 namespace grid_path_planner::planning {
 
+// Whether a distance is one that is kept, but for rounding: as inflation allows for resolutions that are 32-bit
+// floats, and for the rounding of positions. Metres.
+bool atLeast(double distance, double least);
+
 class EndSegments {
  public:
   // `costs` outlives this.
@@ -26,6 +30,8 @@ class EndSegments {
 
   // The distances of a point, each no more than the kept one. Points in metres.
   costmap::KeptDistances at(const Eigen::Vector2d& point) const;
+  // How far a point in the map is from its border.
+  double toBorder(const Eigen::Vector2d& point) const;
   // Whether no point of the line is nearer than the kept distances.
   bool keeps(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
     return keeps(from, to, kept_);
@@ -42,7 +48,6 @@ class EndSegments {
              const costmap::KeptDistances& least) const;
   bool keepsClass(grid::Occupancy wanted, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                   double least) const;
-  double toBorder(const Eigen::Vector2d& point) const;
 
   const costmap::CostGrid& costs_;
   costmap::KeptDistances kept_;

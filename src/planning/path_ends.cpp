@@ -6,10 +6,11 @@
 
 #include "grid_path_planner/planning/nearest_cell.h"
 #include "planning/message_text.h"
+#include "planning/start_escape.h"
 
 namespace grid_path_planner::planning {
 
-using base::Status;
+using base::Status, base::StopPoll;
 using costmap::CostmapOptions, costmap::KeptDistances;
 using grid::Cell, grid::GridGeometry, grid::Occupancy;
 using path::Pose;
@@ -41,27 +42,70 @@ std::optional<PathEnd> PathEnds::start(Plan& failure) const {
   const std::optional<PathEnd> escape =
       escapeStart([this](Cell other) { return costs_.passable(other); });
   if (escape) return escape;
-  const double radius = options_.start_escape_radius;
   failure.status = Status::START_OCCUPIED;
   failure.message =
       "start " + positionText(position) + " " +
       (passable ? "is nearer to obstacles than every straight line away from it allows"
-                : whyBlocked(*cell));
-  failure.message +=
-      radius > 0.0 ? ", with no passable cell within " + metresText(radius) : escapeText(position);
+                : whyBlocked(*cell)) +
+      (options_.start_escape_radius > 0.0 ? noEscapeText(position) : escapeText(position));
   return std::nullopt;
+}
+
+// That no line within start_escape_radius leads out.
+std::string PathEnds::noEscapeText(const Eigen::Vector2d& position) const {
+  const double radius = options_.start_escape_radius;
+  const std::string lines = StartEscape(costs_, leastDistances(), position, radius, stop_).text();
+  return ", with no passable cell within the start_escape_radius of " + metresText(radius) +
+         (lines.empty() ? "" : " on a straight line that " + lines);
 }
 
 // What start_escape_radius a start needs that only keeps too little distance; empty for others.
 std::string PathEnds::escapeText(const Eigen::Vector2d& position) const {
   if (closed(costs_.occupancy(*costs_.geometry().cellAt(position)))) return "";
   const KeptDistances kept = costs_.keptDistances();
-  const auto nearest = nearestCell(costs_.geometry(), position,
-                                   2.0 * std::max({kept.occupied, kept.unknown, kept.outside}),
-                                   [this](Cell cell) { return costs_.passable(cell); });
+  const auto nearest =
+      nearestEscape(position, 2.0 * std::max({kept.occupied, kept.unknown, kept.outside}),
+                    [this](Cell cell) { return costs_.passable(cell); });
   if (!nearest) return "";
-  return "; the nearest passable cell is " + metresText(nearest->distance) +
+  return "; the nearest passable cell is " + metresText(nearest->length) +
          " away, which a start_escape_radius of no less allows";
+}
+
+// What a start is judged by that is nearer, or in one: as kept, and nothing closed is entered.
+KeptDistances PathEnds::leastDistances() const {
+  KeptDistances least = costs_.keptDistances();
+  if (closed(Occupancy::OCCUPIED))
+    least.occupied = std::max(least.occupied, options_.costmap.radius);
+  if (closed(Occupancy::UNKNOWN)) least.unknown = std::max(least.unknown, 0.0);
+  return least;
+}
+
+// The nearest usable cell to which a line leads out of a start. Where there is none, as from the middle of a door
+// of an even number of cells, the nearest point between the centres of two or four.
+template <class Usable>
+std::optional<PathEnds::Escape> PathEnds::nearestEscape(const Eigen::Vector2d& position,
+                                                        double radius, Usable&& usable) const {
+  const GridGeometry& geometry = costs_.geometry();
+  const StartEscape escape(costs_, leastDistances(), position, radius, stop_);
+  StopPoll poll(stop_, 64);
+  std::optional<Escape> nearest;
+  for (const Cell& other : {Cell{0, 0}, Cell{1, 0}, Cell{0, 1}, Cell{1, 1}}) {
+    const Eigen::Vector2d corner(0.5 * other.column, 0.5 * other.row);
+    const Eigen::Vector2d origin = geometry.worldFromGrid(corner);
+    const GridGeometry between(geometry.width(), geometry.height(), geometry.resolution(),
+                               {origin.x(), origin.y(), geometry.origin().yaw});
+    const auto found = nearestCell(between, position, radius, [&](Cell cell) {
+      for (const int column : {0, other.column})
+        for (const int row : {0, other.row})
+          if (!usable({cell.column + column, cell.row + row})) return false;
+      poll();
+      return escape.leads(between.centre(cell));
+    });
+    if (found && (!nearest || found->distance < nearest->length))
+      nearest = Escape{found->cell, between.centre(found->cell), found->distance};
+    if (nearest && other == Cell{0, 0}) break;
+  }
+  return nearest;
 }
 
 // The passable cell nearest a position to whose centre a straight line is legal: mostly its own.
@@ -99,26 +143,27 @@ std::optional<PathEnd> PathEnds::measuredGoal(const Eigen::Vector2d& position,
   return std::nullopt;
 }
 
-// The nearest cell within start_escape_radius of which `usable` holds.
+// The nearest cell within start_escape_radius of which `usable` holds, and to which a line leads out.
 template <class Usable>
 std::optional<PathEnd> PathEnds::escapeStart(Usable&& usable) const {
   const Eigen::Vector2d position = planar(request_.start);
   const double radius = options_.start_escape_radius;
   if (radius <= 0.0) return std::nullopt;
-  const auto nearest = nearestCell(costs_.geometry(), position, radius, usable);
+  const auto nearest = nearestEscape(position, radius, usable);
   if (!nearest) return std::nullopt;
   return PathEnd{nearest->cell, position,
                  "start " + whyBlocked(*costs_.geometry().cellAt(position)) +
-                     ": the path leaves it for a passable cell " + metresText(nearest->distance) +
+                     ": the path leaves it for a passable cell " + metresText(nearest->length) +
                      " away",
-                 true};
+                 true, nearest->point};
 }
 
 std::optional<PathEnd> PathEnds::escapeTowards(const PathEnd& goal) const {
   const std::vector<std::uint8_t> reached =
       search_.reachable(goal.cell, options_.retry_finer, stop_);
-  return escapeStart(
-      [&](Cell cell) { return reached[costs_.geometry().index(cell).value()] != 0; });
+  return escapeStart([&](Cell cell) {
+    return costs_.passable(cell) && reached[costs_.geometry().index(cell).value()] != 0;
+  });
 }
 
 std::optional<PathEnd> PathEnds::goal(const PathEnd& start, Plan& failure) const {

@@ -19,6 +19,7 @@ struct PathEnd {
   Eigen::Vector2d position;
   std::string note;    // what the plan's message adds about it, "" if nothing
   bool moved = false;  // the cell is not that of the requested pose
+  std::optional<Eigen::Vector2d> escape = {};  // where the line out of a blocked start ends
 };
 
 class PathEnds {
@@ -39,14 +40,14 @@ class PathEnds {
         stop_(stop),
         complaint_(complaint) {}
 
-  // None where `failure` says why. A blocked start is replaced by the nearest passable cell within
-  // start_escape_radius, a blocked goal by substituteGoal(). Where distances are kept, the cell is
-  // the nearest one to whose centre a straight line keeps them. Throw Stopped.
+  // None where `failure` says why. A blocked start is left for the nearest passable cell within
+  // start_escape_radius to which a line leads out of it (start_escape.h); where there is none, for the
+  // nearest point between two or four of them. A blocked goal is replaced by substituteGoal(). Where distances are kept, the cell is the nearest one to whose centre a straight
+  // line keeps them. Throw Stopped.
   std::optional<PathEnd> start(Plan& failure) const;
   std::optional<PathEnd> goal(const PathEnd& start, Plan& failure) const;
 
-  // For a blocked start: the nearest cell within start_escape_radius from which `goal` can be
-  // reached.
+  // For a blocked start: the nearest of these cells from which `goal` can be reached.
   std::optional<PathEnd> escapeTowards(const PathEnd& goal) const;
   // The cell nearest the goal, within the tolerance, that can be reached from `start`. `why` the
   // goal itself is not used goes into the note.
@@ -59,6 +60,18 @@ class PathEnds {
   std::optional<grid::Cell> joinedCell(const Eigen::Vector2d& position, Legal&& legal) const;
   std::optional<PathEnd> measuredStart(const Eigen::Vector2d& position) const;
   std::optional<PathEnd> measuredGoal(const Eigen::Vector2d& position, std::string& why) const;
+  // Where a line out of a start ends, beside the centre of a passable cell or there.
+  struct Escape {
+    grid::Cell cell;
+    Eigen::Vector2d point;
+    double length;  // m
+  };
+
+  template <class Usable>
+  std::optional<Escape> nearestEscape(const Eigen::Vector2d& position, double radius,
+                                      Usable&& usable) const;
+  costmap::KeptDistances leastDistances() const;
+  std::string noEscapeText(const Eigen::Vector2d& position) const;
   std::string escapeText(const Eigen::Vector2d& position) const;
   bool closed(grid::Occupancy occupancy) const;
   std::string whyBlocked(grid::Cell cell) const;

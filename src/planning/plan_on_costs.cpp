@@ -71,9 +71,9 @@ Path pathOf(const Route& route, const PathEnd& start, const PathEnd& goal,
     return path;
   }
   const auto end = [&costs](const PathEnd& of) {
-    return RouteEnd{of.position, costs.geometry().centre(of.cell)};
+    return RouteEnd{of.position, costs.geometry().centre(of.cell), of.escape};
   };
-  path = pathOfRoute(route, end(start), end(goal), start.moved, EndSegments(costs));
+  path = pathOfRoute(route, end(start), end(goal), EndSegments(costs));
   addLeads(path, terms);
   const Pose &first = terms.from ? *terms.from : request.start,
              &last = terms.to ? *terms.to : request.goal;

@@ -135,14 +135,15 @@ void priceRoute(Route& route, const CostGrid& costs) {
   }
 }
 
-Path pathOfRoute(const Route& route, const RouteEnd& start, const RouteEnd& goal, bool keep_first,
+Path pathOfRoute(const Route& route, const RouteEnd& start, const RouteEnd& goal,
                  const EndSegments& segments) {
   const std::vector<RoutePoint> points = pointsOf(route);
   assert(!points.empty());
   const CostGrid &first_map = *points.front().map, &last_map = *points.back().map;
+  const Eigen::Vector2d first = start.escape.value_or(start.position);
   const auto leaves = [&](const Eigen::Vector2d& to) {
-    return segments.measured() ? segments.leavesStart(start.position, to)
-                               : straightLineLegal(first_map, start.position, to);
+    return segments.measured() ? segments.leavesStart(first, to)
+                               : straightLineLegal(first_map, first, to);
   };
   const auto arrives = [&](const Eigen::Vector2d& from) {
     return segments.measured() ? segments.keeps(from, goal.position)
@@ -150,20 +151,20 @@ Path pathOfRoute(const Route& route, const RouteEnd& start, const RouteEnd& goal
   };
   Positions positions;
   for (const RoutePoint& point : points) positions.push_back(point.position);
-  if (!keep_first) {
-    const Eigen::Vector2d next = positions.size() > 1 ? positions[1] : goal.position;
-    if (leaves(next))
-      positions.erase(positions.begin());
-    else if (segments.measured() && !leaves(positions[0]))
-      positions.insert(positions.begin(), start.centre);
-  }
-  if (positions.size() > (keep_first ? 1U : 0U)) {
+  const Eigen::Vector2d next = positions.size() > 1 ? positions[1] : goal.position;
+  if (leaves(next))
+    positions.erase(positions.begin());
+  else if (segments.measured() && !leaves(positions[0]))
+    positions.insert(positions.begin(), start.centre);
+  if (!positions.empty()) {
     const bool at_start = positions.size() == 1;
     if (at_start ? leaves(goal.position) : arrives(positions[positions.size() - 2]))
       positions.pop_back();
     else if (segments.measured() && !arrives(positions.back()))
       positions.push_back(goal.centre);
   }
+  if (start.escape && (positions.empty() || !samePlace(positions.front(), first)))
+    positions.insert(positions.begin(), first);
   return pathThrough(start.position, positions, goal.position);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "grid_path_planner/base/stop_token.h"
@@ -39,14 +40,14 @@ bool straightLineLegal(const costmap::CostGrid& map, const Eigen::Vector2d& from
 struct RouteEnd {
   Eigen::Vector2d position;
   Eigen::Vector2d centre;
+  std::optional<Eigen::Vector2d> escape = {};  // by which a start is left that is itself blocked
 };
 
 // The positions (z 0) and no headings yet. The middle of the first or last cell or block stays
-// between an end and the rest only where the straight line past it is not legal, or where
-// `keep_first` asks for it (a start that is itself blocked); the cell's centre beside it only where
-// the line to that middle is not. start = goal: one pose. Precondition: the route was found;
-// `segments` are of the costmap at full resolution.
+// between an end and the rest only where the straight line past it is not legal; the cell's centre
+// beside it only where the line to that middle is not. start = goal: one pose. Precondition: the route
+// was found; `segments` are of the costmap at full resolution.
 path::Path pathOfRoute(const Route& route, const RouteEnd& start, const RouteEnd& goal,
-                       bool keep_first, const EndSegments& segments);
+                       const EndSegments& segments);
 
 }  // namespace grid_path_planner::planning

@@ -115,6 +115,22 @@ TEST(CostPlanner, NamesTheEndThatIsWrong) {
   EXPECT_EQ(CostPlanner().plan({}, 0.0).status, Status::NO_MAP);
 }
 
+// Of the costs only 254 says where the obstacles are.
+TEST(CostPlanner, AStartIsNotLeftThroughAnObstacle) {
+  Picture picture({"..i#i..",  //
+                   "G.S#i..",  //
+                   "..i#i.."});
+  const Cell start{2, 1};
+  picture.costs[start] = kInscribedCost;
+  CostPlannerOptions options;
+  options.start_escape_radius = 3.0;
+  const Plan away = planOnPicture(picture, options);
+  ASSERT_TRUE(away.found()) << away.message;
+  EXPECT_EQ(away.path.poses[1].position.head<2>(), Eigen::Vector2d(1.5, 1.5));
+  picture.request.goal.position.head<2>() << 6.5, 1.5;
+  EXPECT_EQ(planOnPicture(picture, options).status, Status::UNREACHABLE);
+}
+
 TEST(CostPlanner, CancelsAndPlansAgain) {
   const Picture picture({"S..G"});
   CostPlanner planner;

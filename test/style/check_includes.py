@@ -76,6 +76,7 @@ LENT = {
     "path/dubins.h": {"planning"},
     "path/motions.h": {"command_line", "following", "planning"},
     "path/pose_spacing.h": {"planning", "ros_adapters", "ros_planning"},
+    "path/segment.h": {"planning"},
     "planning/cost_planner.h": {"ros_adapters"},
     "planning/cost_planner_options.h": {"ros_adapters"},
     "planners/tables/cost_to_go.h": {"ros_planning"},

@@ -114,8 +114,10 @@ void visitOptions(PlannerOptions& o, Visitor&& visit) {
             .under("What is asked for"));
   visit("start_escape_radius", o.start_escape_radius,
         base::OptionInfo{
-            "How far the nearest passable cell may be from an occupied start; 0: no path then", "m",
-            0, 10000});
+            "How far the nearest passable cell may be from a start that is occupied or too near to "
+            "something, on a straight line that comes no nearer than the start is; from inside "
+            "occupied cells it leads out by their nearest edge; 0: no path then",
+            "m", 0, 10000});
   visit("retry_finer", o.retry_finer,
         base::OptionInfo{
             "Whether the search is repeated at kernel 1 where the kernel closes every path; "
