@@ -101,5 +101,54 @@ TEST(FootprintLaw, noPathMeetsAnObstacle) {
   std::printf("found %d, at the first try %d, none that fits %d\n", found, at_first, none);
 }
 
+// Walls that are not known. A path to the goal that was asked for may reach into them as the footprint does at an end.
+TEST(FootprintLaw, noPathToAReplacedGoalMeetsWhatIsUnknown) {
+  constexpr double kTouch = 1e-5;  // cells
+  std::mt19937 random(49);
+  int replaced = 0, would_reach = 0;
+  for (int i = 0; i < 100; ++i) {
+    const OccupancyGrid walls = randomRooms(random, random() % 2 == 0 ? 0.0 : 0.6);
+    OccupancyGrid unknown = walls;
+    for (int row = 0; row < walls.height(); ++row)
+      for (int column = 0; column < walls.width(); ++column)
+        if (walls.row(row)[column] >= 65) unknown.row(row)[column] = -1;
+    const Corners vehicle = randomVehicle(random);
+    PlannerOptions options = randomFootprintOptions(random);
+    options.footprint = textOfCorners(vehicle);
+    options.costmap.unknown_is_passable = false;
+    options.costmap.outside = costmap::Outside::FREE;
+    options.tolerance = 1.5;
+    if (random() % 4 == 0) {
+      options.heading = HeadingMode::FORWARD;
+      options.min_turning_radius = 0.3;
+    }
+    PathPlanner planner(options);
+    planner.setMap(std::make_shared<const OccupancyGrid>(unknown));
+    const auto overlapAt = [&](const Pose& pose) {
+      Path standing;
+      standing.poses.push_back(pose);
+      return largestOverlap(vehicle, standing, pose.yaw, options.heading, 0.04, walls);
+    };
+    for (int question = 0; question < 4; ++question) {
+      const PoseRequest request{randomFootprintPose(random, walls),
+                                randomFootprintPose(random, walls)};
+      const Plan plan = planner.plan(request);
+      if (!plan.found() || !test::contains(plan.message, "the path ends")) continue;
+      if (overlapAt(request.start) > 0.0) continue;
+      ++replaced;
+      would_reach += overlapAt(request.goal) > 0.0;
+      EXPECT_FALSE(test::contains(plan.message, "may reach into")) << plan.message;
+      for (const Path* path : {&plan.path, &plan.waypoints})
+        ASSERT_LT(largestOverlap(vehicle, *path, request.start.yaw, options.heading, 0.04, walls),
+                  kTouch)
+            << "case " << i << ": " << plan.message;
+    }
+  }
+  EXPECT_GT(replaced, 30);
+  EXPECT_GT(would_reach, 20);
+  std::printf("%d goals replaced, at %d the footprint reaches into unknown cells\n", replaced,
+              would_reach);
+}
+
 }  // namespace
 }  // namespace grid_path_planner::planning

@@ -222,6 +222,34 @@ TEST(FootprintPlan, theFirstTurnIsSwept) {
   EXPECT_TRUE(contains(none.message, "turning on the spot")) << none.message;
 }
 
+// A goal beside unknown cells is replaced; since the footprint would have reached into them there, it was let
+// into them all along the path, also where it cannot turn without.
+TEST(FootprintPlan, aGoalThatIsReplacedLetsTheFootprintIntoNoUnknownCells) {
+  FootprintQuestion question(corridorWithACorner(), rectangularVehicle(1.5, 0.4));
+  const OccupancyGrid walls = question.map;
+  for (int row = 0; row < walls.height(); ++row)
+    for (int column = 0; column < walls.width(); ++column)
+      if (walls[Cell{column, row}] == 100) question.map[Cell{column, row}] = -1;
+  question.options.costmap.unknown_is_passable = false;
+  question.options.costmap.outside = Outside::FREE;
+  question.options.tolerance = 0.5;
+  question.request.goal.yaw = M_PI / 2;
+  const Plan in_the_middle = question.plan();
+  EXPECT_EQ(Status::UNREACHABLE, in_the_middle.status) << in_the_middle.message;
+  question.request.goal.position.x() = 1.65;
+  const Plan replaced = question.plan();
+  EXPECT_EQ(Status::UNREACHABLE, replaced.status) << replaced.message;
+  EXPECT_TRUE(contains(replaced.message, "the footprint meets the unknown cell"))
+      << replaced.message;
+
+  question.request.start.position << 1.95, 2.2, 0.0;
+  question.request.start.yaw = M_PI / 2;
+  const Plan straight = question.plan();
+  ASSERT_EQ(Status::FOUND, straight.status) << straight.message;
+  EXPECT_TRUE(contains(straight.message, "the path ends")) << straight.message;
+  EXPECT_FALSE(contains(straight.message, "may reach into")) << straight.message;
+}
+
 TEST(FootprintPlan, unknownCellsAndTheBorderCountAsForARadius) {
   FootprintQuestion question(AsciiMap({"..........",  //
                                        "..S.......",  //

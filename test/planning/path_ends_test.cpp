@@ -169,6 +169,33 @@ TEST(PathEnds, AGoalNearUnknownCellsIsOccupiedOrReplaced) {
             0.25 - kEndRounding);
 }
 
+// What is kept from unknown cells and the border is that of the goal which is used, as if it were asked for.
+TEST(PathEnds, AGoalThatIsReplacedLowersNothing) {
+  std::mt19937 random(49);
+  std::uniform_real_distribution<double> anywhere(0.05, kOpenSide * kOpenResolution - 0.05);
+  int replaced = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    PlannerOptions options = keptFromUnknown(0.25);
+    options.costmap.outside = trial % 2 == 0 ? Outside::UNKNOWN : Outside::OCCUPIED;
+    options.tolerance = 0.6;
+    const Pose start = poseAt(1.5, 1.5);
+    std::vector<Cell> cells;
+    for (int i = 0; i < 8; ++i) {
+      const Cell cell{int(random() % kOpenSide), int(random() % kOpenSide)};
+      if (std::abs(cell.column - 30) + std::abs(cell.row - 30) > 14) cells.push_back(cell);
+    }
+    const OccupancyGrid map = openExcept(cells, -1);
+    const Plan plan = planOn(map, start, poseAt(anywhere(random), anywhere(random)), options);
+    if (!plan.found() || plan.message.find("the path ends") == std::string::npos) continue;
+    ++replaced;
+    const Points points = cornersOf(plan.path);
+    EXPECT_GE(test::leastDistance(points, map, {true, true, true}, 1.0), 0.25 - kEndRounding);
+    const Plan asked = planOn(map, start, poseAt(points.back().x(), points.back().y()), options);
+    EXPECT_EQ(points, cornersOf(asked.path));
+  }
+  EXPECT_GT(replaced, 60);
+}
+
 TEST(PathEnds, TheBorderIsKeptFromAsCellsAre) {
   PlannerOptions options = withRadius(1.5);
   options.costmap.outside = Outside::OCCUPIED;

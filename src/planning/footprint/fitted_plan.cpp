@@ -27,6 +27,10 @@ constexpr int kFactors[] = {2, 10};
 constexpr int kRaised = std::size(kFactors);
 constexpr char kTryPlanner[] = "a_star";  // which takes any weights and prepares nothing
 
+bool isAt(const Pose& pose, const Pose& place) {
+  return (pose.position - place.position).head<2>().norm() < 1e-9;
+}
+
 // Where a goal may be passed with any heading none counts.
 std::optional<double> headingAt(const Path& path, const PoseRequest& request) {
   return request.any_goal_heading ? std::nullopt : std::make_optional(path.poses.back().yaw);
@@ -47,8 +51,8 @@ FittedPlanner::FittedPlanner(const Footprint& footprint, const CostGrid& costs, 
       inflate_(std::move(inflate)),
       options_(options),
       memory_(memory),
-      check_(footprint, costs, options) {
-  terms_.complaint = [this](const Pose& pose) { return check_.complaint(pose); };
+      check_(footprint, costs, options),
+      check_of_start_(footprint, costs, options) {
   terms_.priced = &costs_;
 }
 
@@ -57,12 +61,10 @@ Plan FittedPlanner::plan(MultiResolutionPlanner& search, const PoseRequest& requ
   std::vector<Pose> ends = {request.start};
   if (!request.any_goal_heading) ends.push_back(request.goal);
   check_.allowFor(ends);
-  terms_.shape = curvesFor(
-      request, options_, costs_,
-      [this, &stop](const Path& path) {
-        return !check_.first(path, std::nullopt, std::nullopt, stop);
-      },
-      stop);
+  check_of_start_.allowFor({request.start});
+  terms_.complaint = complaintAbout(request);
+  if (options_.min_turning_radius > 0.0)
+    terms_.shape = [this, &request, &stop](Plan& found) { bend(found, request, stop); };
   VehicleTerms first_terms = terms_;
   first_terms.priced = nullptr;
   Plan plan = planOnCosts(costs_, search, request, options_, stop, first_terms);
@@ -73,9 +75,29 @@ Plan FittedPlanner::plan(MultiResolutionPlanner& search, const PoseRequest& requ
   return planWithRoom(std::move(plan), request, stop);
 }
 
+void FittedPlanner::bend(Plan& plan, const PoseRequest& request, const StopToken& stop) const {
+  const FootprintCheck& check = checkOf(plan.path, request);
+  const auto fits = [&](const Path& path) {
+    return !check.first(path, std::nullopt, std::nullopt, stop);
+  };
+  curvesFor(request, options_, costs_, fits, stop)(plan);
+}
+
+const FootprintCheck& FittedPlanner::checkOf(const Pose& end, const PoseRequest& request) const {
+  return isAt(end, request.goal) ? check_ : check_of_start_;
+}
+
+std::function<std::string(const Pose&)> FittedPlanner::complaintAbout(
+    const PoseRequest& request) const {
+  return [this, request](const Pose& pose) {
+    return (isAt(pose, request.start) ? check_ : checkOf(pose, request)).complaint(pose);
+  };
+}
+
 FittedPlanner::Contacts FittedPlanner::contactsOf(const Plan& plan, const PoseRequest& request,
                                                   const StopToken& stop) const {
-  return check_.contacts(plan.path, request.start.yaw, headingAt(plan.path, request), stop);
+  return checkOf(plan.path, request)
+      .contacts(plan.path, request.start.yaw, headingAt(plan.path, request), stop);
 }
 
 Plan FittedPlanner::planAnew(std::shared_ptr<const CostGrid> costs, const PoseRequest& request,
@@ -136,11 +158,12 @@ FittedPlanner::Question FittedPlanner::ledQuestion(const PoseRequest& request,
     question.terms.from = request.start;
     question.request.start = *first;
   }
-  if (request.any_goal_heading) return question;
-  if (const auto last = lead(request.goal, -1.0, turning)) {
+  const auto last = request.any_goal_heading ? std::nullopt : lead(request.goal, -1.0, turning);
+  if (last) {
     question.terms.to = request.goal;
     question.request.goal = *last;
   }
+  question.terms.complaint = complaintAbout(question.request);
   return question;
 }
 
@@ -155,10 +178,11 @@ bool FittedPlanner::tryOn(const TryCosts& raised, const std::vector<Question>& q
   Plan first;
   do {
     for (const Question& question : questions) {
+      // From another place than the one that leads to the goal, nobody has looked at the line to it.
+      options.tolerance = question.terms.to ? 0.0 : options_.tolerance;
       plan = planAnew(costs, question.request, question.terms, options, stop);
       if (!plan.found()) continue;
-      const Contacts of_plan = check_.contacts(plan.path, questions.front().request.start.yaw,
-                                               headingAt(plan.path, question.request), stop);
+      const Contacts of_plan = contactsOf(plan, questions.front().request, stop);
       if (of_plan.empty()) return true;
       if (!contacts.empty()) continue;
       contacts = of_plan;
@@ -217,8 +241,9 @@ Plan FittedPlanner::planWithRoom(Plan first, const PoseRequest& request, const S
 Plan FittedPlanner::completed(Plan plan, const PoseRequest& request, const std::string& how,
                               const StopToken& stop) const {
   addNote(plan.message, how);
-  addNote(plan.message, check_.note());
-  if (check_.first(plan.waypoints, request.start.yaw, headingAt(plan.waypoints, request), stop)) {
+  const FootprintCheck& check = checkOf(plan.path, request);
+  addNote(plan.message, check.note());
+  if (check.first(plan.waypoints, request.start.yaw, headingAt(plan.waypoints, request), stop)) {
     PlannerOptions exact = options_;
     exact.waypoint_tolerance = 0.0;
     plan.waypoints = waypointsOf(plan.path, exact, costs_);

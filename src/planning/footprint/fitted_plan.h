@@ -43,6 +43,16 @@ class FittedPlanner {
  private:
   using Contacts = std::vector<vehicle::FootprintContact>;
 
+  // Into curves.
+  void bend(Plan& plan, const PoseRequest& request, const base::StopToken& stop) const;
+  // The check of poses and paths at the goal which was asked for, or of those at one that replaces it, where only the
+  // start allows something.
+  const FootprintCheck& checkOf(const path::Pose& end, const PoseRequest& request) const;
+  const FootprintCheck& checkOf(const path::Path& path, const PoseRequest& request) const {
+    return checkOf(path.poses.back(), request);
+  }
+  // Of a pose at the start, the goal or the place of another goal.
+  std::function<std::string(const path::Pose&)> complaintAbout(const PoseRequest& request) const;
   Contacts contactsOf(const Plan& plan, const PoseRequest& request,
                       const base::StopToken& stop) const;
   Plan planAnew(std::shared_ptr<const costmap::CostGrid> costs, const PoseRequest& request,
@@ -74,7 +84,8 @@ class FittedPlanner {
   const Inflate inflate_;
   const PlannerOptions& options_;
   const std::size_t memory_;
-  FootprintCheck check_;
+  FootprintCheck check_;  // which allows what the footprint meets at the start and at the goal
+  FootprintCheck check_of_start_;  // at the start only
   VehicleTerms terms_;
   int tries_ = 0;
   base::Statistics spent_;

@@ -24,7 +24,7 @@ class FootprintCheck {
                  const PlannerOptions& options);
 
   // Where the footprint meets unknown cells or the outside at one of these poses, they are no obstacles from now on:
-  // a path keeps no more from them than its ends have.
+  // a path keeps no more from them than its ends have. A goal that is replaced is no end.
   void allowFor(const std::vector<path::Pose>& ends);
   // What that says in a plan's message; "" where nothing was allowed.
   std::string note() const;
