@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "grid/segment.h"
 #include "grid_path_planner/path/metrics.h"
-#include "path/segment.h"
 #include "planning/end_segments.h"
 #include "planning/message_text.h"
 
@@ -13,9 +13,9 @@ namespace grid_path_planner::planning {
 
 using base::StopPoll, base::StopToken;
 using costmap::CostGrid, costmap::KeptDistances;
-using grid::Cell, grid::GridGeometry, grid::Occupancy;
-using path::Box, path::CellSpan, path::clipped, path::distanceToClass, path::forEachRowInReach,
-    path::Segment;
+using grid::Box, grid::Cell, grid::CellSpan, grid::clipped, grid::forEachRowInReach,
+    grid::GridGeometry, grid::Occupancy, grid::Segment;
+using path::distanceToClass;
 
 namespace {
 
