@@ -37,7 +37,7 @@ SmoothPath calmOver(const CostGrid& map, const Points& points) {
   return withoutZigzags(map, points, asItIs(map, points), StopToken());
 }
 
-Points centresOf(const std::vector<Cell>& cells) {
+Points cellCentresOf(const std::vector<Cell>& cells) {
   Points points;
   for (const Cell cell : cells) points.push_back(SegmentPoint::centreOf(cell));
   return points;
@@ -56,15 +56,15 @@ const std::vector<Cell> kAlongIt = {{0, 3}, {1, 2}, {3, 2}, {4, 1}, {6, 1}, {7, 
 
 TEST(Zigzags, AStaircaseOfWeightsBecomesALine) {
   const CostGrid map = test::costMap(kStaircase);
-  const SmoothPath calm = calmOver(map, centresOf(kAlongIt));
+  const SmoothPath calm = calmOver(map, cellCentresOf(kAlongIt));
   EXPECT_EQ(calm.kept, (std::vector<std::size_t>{0, 6}));
-  EXPECT_GT(calm.cost, asItIs(map, centresOf(kAlongIt)).cost);
+  EXPECT_GT(calm.cost, asItIs(map, cellCentresOf(kAlongIt)).cost);
 }
 
 TEST(Zigzags, WeightsThatNoRoundingExplainsAreGoneAround) {
   std::vector<std::string> steep = kStaircase;
   for (std::string& row : steep) std::replace(row.begin(), row.end(), '3', '9');
-  EXPECT_GT(calmOver(test::costMap(steep), centresOf(kAlongIt)).kept.size(), 2u);
+  EXPECT_GT(calmOver(test::costMap(steep), cellCentresOf(kAlongIt)).kept.size(), 2u);
 }
 
 TEST(Zigzags, ABendThatIsNoZigzagStays) {
@@ -72,7 +72,7 @@ TEST(Zigzags, ABendThatIsNoZigzagStays) {
                                       "32222223",  //
                                       "22333322"});
   const std::vector<Cell> bend = {{0, 2}, {1, 1}, {6, 1}, {7, 2}};
-  EXPECT_EQ(calmOver(map, centresOf(bend)).kept.size(), bend.size());
+  EXPECT_EQ(calmOver(map, cellCentresOf(bend)).kept.size(), bend.size());
 }
 
 TEST(Zigzags, AnObstacleOnTheLineIsGoneAround) {
@@ -84,7 +84,7 @@ TEST(Zigzags, AnObstacleOnTheLineIsGoneAround) {
   for (std::size_t i = 1; i < round.size(); ++i)
     ASSERT_TRUE(costmap::lineOfSight(map, SegmentPoint::centreOf(round[i - 1]),
                                      SegmentPoint::centreOf(round[i])));
-  const SmoothPath calm = calmOver(map, centresOf(round));
+  const SmoothPath calm = calmOver(map, cellCentresOf(round));
   for (std::size_t i = 1; i < calm.kept.size(); ++i)
     EXPECT_TRUE(costmap::lineOfSight(map, SegmentPoint::centreOf(round[calm.kept[i - 1]]),
                                      SegmentPoint::centreOf(round[calm.kept[i]])));
@@ -92,15 +92,15 @@ TEST(Zigzags, AnObstacleOnTheLineIsGoneAround) {
 
 TEST(Zigzags, OneWeightHasNothingToRound) {
   const CostGrid map = test::costMap({"..........", "..........", "..........", ".........."});
-  EXPECT_EQ(calmOver(map, centresOf(kAlongIt)).kept.size(), kAlongIt.size());
-  EXPECT_EQ(calmOver(map, centresOf({{3, 2}})).kept, std::vector<std::size_t>{0});
+  EXPECT_EQ(calmOver(map, cellCentresOf(kAlongIt)).kept.size(), kAlongIt.size());
+  EXPECT_EQ(calmOver(map, cellCentresOf({{3, 2}})).kept, std::vector<std::size_t>{0});
 }
 
 // All points of a round trip lie on the line of no length between its ends.
 TEST(Zigzags, ARoundTripStays) {
   const CostGrid map = test::costMap(kStaircase);
   const std::vector<Cell> there_and_back = {{0, 3}, {1, 2}, {3, 2}, {4, 1}, {3, 2}, {1, 2}, {0, 3}};
-  const SmoothPath calm = calmOver(map, centresOf(there_and_back));
+  const SmoothPath calm = calmOver(map, cellCentresOf(there_and_back));
   EXPECT_GT(calm.kept.size(), 2u);
   EXPECT_GT(calm.cost, 4.0);
 }

@@ -80,7 +80,7 @@ INPUTS = {
     "ros/input/map_receiver.cpp": {"map_msgs::OccupancyGridUpdate": "map_update"},
     "ros/input/whole_map_subscription.cpp": {"nav_msgs::OccupancyGrid": "map_message"},
     "ros/input/transform_receiver.cpp": {"tf2_msgs::TFMessage": "transform_message frame_messages rival_transforms"},
-    "ros/driving/drive_loop.cpp": {"std_msgs::Bool": HANDED_OVER},
+    "ros/driving/drive_loop.cpp": {"std_msgs::Bool": HANDED_OVER, "std_msgs::String": "localization_status"},
     "ros/driving/go_to_pose_node.cpp": {"GoToPoseOptions": "vehicle_config_message",
                                         "geometry_msgs::PoseStamped": Part(("go_to_pose_messages", "as a goal of the action")),
                                         "std_msgs::Bool": HANDED_OVER, "std_msgs::Empty": HANDED_OVER},

@@ -1,5 +1,6 @@
 #include "ros/driving/drive_loop.h"
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -31,9 +32,7 @@ using vehicle::Footprint;
 
 namespace {
 
-// By the wall clock.
-constexpr std::chrono::milliseconds kClockTimeout(500);
-constexpr std::chrono::seconds kRefusedPeriod(1);
+constexpr std::chrono::seconds kRefusedPeriod(1);  // by the wall clock
 
 std::string sentenceOf(const Obstruction& obstruction) {
   std::ostringstream text;
@@ -72,6 +71,9 @@ DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& optio
       refused);
   stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
       own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); }, refused);
+  localization_subscriber_ = subscribeChecked<std_msgs::String>(
+      own, "localization_status", 10,
+      [this](const std_msgs::String& message) { onLocalization(message); }, refused);
   waitForPublishers(stop_subscriber_);
   thread_.start(options_.control_rate, options_.realtime_priority);
 }
@@ -109,7 +111,10 @@ PathFollower::Answer DriveLoop::resume() {
   return thread_.ask([this] {
     if (joystick_.commands())
       return PathFollower::Answer{false, "the joystick commands: let it go first"};
-    return follower_.resume();
+    const bool granted = holds_.localization.grant(holds_.now().toSec(), options_.degraded);
+    const PathFollower::Answer answer = follower_.resume();
+    if (!granted || !follower_.active()) return answer;
+    return PathFollower::Answer{true, "drives on for degraded_time with a pose that is degraded"};
   });
 }
 
@@ -136,16 +141,11 @@ DriveStanding DriveLoop::standing() {
 }
 
 void DriveLoop::setMap(const MapLiveness& life) {
-  thread_.post([this, life] {
-    const bool same = life.map.data.changes() == map_.map.data.changes();
-    const DrivenTime driven = same ? map_.driven : DrivenTime();
-    map_ = life;
-    map_.driven = driven;
-  });
+  thread_.post([this, life] { holds_.setMap(life); });
 }
 
 void DriveLoop::setSpeedLimits(const SpeedLimits& limits) {
-  thread_.post([this, limits] { limits_ = limits; });
+  thread_.post([this, limits] { holds_.limits = limits; });
 }
 
 std::vector<DriveReport> DriveLoop::takeReports() {
@@ -167,8 +167,7 @@ void DriveLoop::tick() {
     return;
   }
   const ros::Time now = ros::Time::now();
-  if (now != now_) moved_ = Clock::now();
-  now_ = now;
+  holds_.tick(now);
   yieldToJoystick();
   follow(now);
   report(now);
@@ -176,6 +175,7 @@ void DriveLoop::tick() {
 
 // The end is reported before another drive begins.
 void DriveLoop::timeWentBack(double seconds) {
+  holds_.localization.timeWentBack();
   follower_.abandon("time went back by " + std::to_string(seconds) + " s");
   const ros::Time now = ros::Time::now();
   FollowInput without_pose;
@@ -187,31 +187,15 @@ void DriveLoop::timeWentBack(double seconds) {
 void DriveLoop::follow(const ros::Time& now) {
   FollowInput input;
   input.time = now.toSec();
-  input.hold = whyHeld();
+  input.hold = holds_.problem(options_, stop_subscriber_.getTopic()).value_or("");
   gate_.tick(input.time, 1.0 / options_.control_rate);
   if (!follower_.path().empty() && input.hold.empty()) findVehicle(input);
   if (gate_.checks() && options_.check_map && input.pose) checkMotions(input);
-  if (options_.check_map || limits_.grid)
+  if (options_.check_map || holds_.limits.grid)
     input.check = [this](const std::vector<Eigen::Vector3d>& ahead) { return whyNotFree(ahead); };
-  if (limits_.grid)
+  if (holds_.limits.grid || holds_.localization.speedShare(options_.degraded) < 1.0)
     input.speed = [this](const std::vector<Eigen::Vector3d>& ahead) { return allowedSpeed(ahead); };
   publish(follower_.update(input));
-}
-
-std::string DriveLoop::whyHeld() const {
-  if (stopped_) return "stopped by the topic " + stop_subscriber_.getTopic();
-  if (Clock::now() - moved_ > kClockTimeout) return "ROS time stands still: no /clock comes";
-  if (options_.check_map) {
-    const std::string why = whyNoMap(map_, {options_.map_timeout, options_.map_data_timeout});
-    if (!why.empty()) return why;
-  }
-  if (options_.use_speed_limit && !limits_.grid)
-    return "no map of speed limits has come on speed_limit yet (use_speed_limit:=false drives "
-           "without one)";
-  if (const std::string why = whyNoLimits(limits_); !why.empty()) return why;
-  if (options_.master_timeout > 0.0 && master_->silence() > options_.master_timeout)
-    return "the ROS master has not answered for longer than master_timeout";
-  return "";
 }
 
 void DriveLoop::findVehicle(FollowInput& input) const {
@@ -228,9 +212,9 @@ void DriveLoop::findVehicle(FollowInput& input) const {
 void DriveLoop::checkMotions(FollowInput& input) const {
   try {
     const Placed placed =
-        transforms_.placeVehicle({frameInMap(map_.map.frame_id, options_.map_frame),
+        transforms_.placeVehicle({frameInMap(holds_.map.map.frame_id, options_.map_frame),
                                   options_.tf_timeout, Moving::WITH_VEHICLE, options_.base_frame});
-    input.motion = gate_.check(placed.level(), placed.age, *map_.map.grid, options_.limits);
+    input.motion = gate_.check(placed.level(), placed.age, *holds_.map.map.grid, options_.limits);
   } catch (const TransformError& error) {
     input.motion = [what = std::string(error.what())](const BodyVelocity&) { return what; };
   }
@@ -246,12 +230,12 @@ std::vector<Eigen::Vector3d> DriveLoop::inFrame(const std::string& frame,
 
 std::string DriveLoop::whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const {
   try {
-    if (limits_.grid) inFrame(limits_.frame_id, ahead);
+    if (holds_.limits.grid) inFrame(holds_.limits.frame_id, ahead);
     if (!options_.check_map) return "";
-    const std::vector<Eigen::Vector3d> in_map = inFrame(map_.map.frame_id, ahead);
-    auto found = firstObstruction(*map_.map.grid, options_.limits, in_map);
+    const std::vector<Eigen::Vector3d> in_map = inFrame(holds_.map.map.frame_id, ahead);
+    auto found = firstObstruction(*holds_.map.map.grid, options_.limits, in_map);
     if (!found && !footprint_.empty())
-      found = firstFootprintContact(*map_.map.grid, options_.limits, footprint_, in_map);
+      found = firstFootprintContact(*holds_.map.map.grid, options_.limits, footprint_, in_map);
     return found ? sentenceOf(*found) : "";
   } catch (const TransformError& error) {
     return std::string("projected_map or speed_limit cannot be compared with the path: ") +
@@ -260,9 +244,12 @@ std::string DriveLoop::whyNotFree(const std::vector<Eigen::Vector3d>& ahead) con
 }
 
 double DriveLoop::allowedSpeed(const std::vector<Eigen::Vector3d>& ahead) const {
+  const double most =
+      options_.follower.max_speed * holds_.localization.speedShare(options_.degraded);
+  if (!holds_.limits.grid) return most;
   try {
-    return following::allowedSpeed(*limits_.grid, options_.follower,
-                                   inFrame(limits_.frame_id, ahead));
+    return std::min(most, following::allowedSpeed(*holds_.limits.grid, options_.follower,
+                                                  inFrame(holds_.limits.frame_id, ahead)));
   } catch (const TransformError&) {
     return 0.0;
   }
@@ -280,7 +267,14 @@ void DriveLoop::noteHandover() {
 }
 
 void DriveLoop::onStop(const std_msgs::Bool& message) {
-  if (std::exchange(stopped_, message.data) != message.data) thread_.tick();
+  if (std::exchange(holds_.stopped, message.data) != message.data) thread_.tick();
+}
+
+void DriveLoop::onLocalization(const std_msgs::String& message) {
+  if (holds_.localization.hear(message.data, holds_.now().toSec())) return;
+  DriveReport report;
+  report.note = "A message on localization_status was refused: it begins with no status";
+  hand({report});
 }
 
 // Seldom: whoever reads the notes may be slow.
@@ -289,7 +283,9 @@ void DriveLoop::noteRefused() {
   if (refused_ && now - *refused_ < kRefusedPeriod) return;
   refused_ = now;
   DriveReport report;
-  report.note = "A message on stop or manual_control was refused: its bytes are none of it";
+  report.note =
+      "A message on stop, manual_control or localization_status was refused: its bytes are none of "
+      "it";
   hand({report});
 }
 
@@ -310,16 +306,16 @@ void DriveLoop::yieldToJoystick() {
 }
 
 void DriveLoop::publish(const BodyVelocity& velocity) {
-  if (joystick_.commands() && !stopped_) {
+  if (joystick_.commands() && !holds_.stopped) {
     silent_ = true;  // the joystick's velocities are in force, and its zero when it is let go
     gate_.sent({});
     return;
   }
   const bool driven = follower_.active() && follower_.state() != FollowState::PAUSED;
-  if (!driven && !stopped_ && velocity.isZero() && silent_) return;
+  if (!driven && !holds_.stopped && velocity.isZero() && silent_) return;
   velocity_publisher_.publish(velocityToMessage(velocity));
   gate_.sent(velocity);
-  if (!velocity.isZero()) map_.driven.note(now_);
+  if (!velocity.isZero()) holds_.map.driven.note(holds_.now());
   silent_ = !driven && velocity.isZero();  // sent: what threw is tried again
 }
 

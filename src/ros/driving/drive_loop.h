@@ -20,6 +20,7 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 #include <std_msgs/Bool.h>
+#include <std_msgs/String.h>
 
 #include <chrono>
 #include <functional>
@@ -30,11 +31,8 @@
 #include <vector>
 
 #include "grid_path_planner/following/path_follower.h"
-#include "ros/driving/map_liveness.h"
+#include "ros/driving/hold_reasons.h"
 #include "ros/driving/motion_gate.h"
-#include "ros/driving/navigate_path_options.h"
-#include "ros/driving/speed_limit_receiver.h"
-#include "ros/guard/master/master_watch.h"
 #include "ros/guard/outgoing/direct_publisher.h"
 #include "ros/guard/scheduling/control_thread.h"
 #include "ros/input/frame_lookup.h"
@@ -118,7 +116,6 @@ class DriveLoop {
   void giveUpTick();
   void timeWentBack(double seconds);
   void follow(const ros::Time& now);
-  std::string whyHeld() const;
   void findVehicle(following::FollowInput& input) const;
   void checkMotions(following::FollowInput& input) const;
   std::string whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const;
@@ -127,6 +124,7 @@ class DriveLoop {
   double allowedSpeed(const std::vector<Eigen::Vector3d>& ahead) const;
   void onManual(const std_msgs::Bool& message);
   void onStop(const std_msgs::Bool& message);
+  void onLocalization(const std_msgs::String& message);
   void noteRefused();
   void noteHandover();
   void yieldToJoystick();
@@ -139,18 +137,13 @@ class DriveLoop {
   vehicle::Footprint footprint_;  // of the options
   FrameTransforms& transforms_;
   const Callbacks callbacks_;
-  const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   following::PathFollower follower_;
   MotionGate gate_;
+  HoldReasons holds_;
   unsigned drive_ = 0;  // started so far
   unsigned handovers_ = 0;
-  MapLiveness map_;
-  SpeedLimits limits_;
-  ros::Time now_;
-  Clock::time_point moved_;  // when ROS time did last
   ManualControl joystick_;
   std::optional<Clock::time_point> refused_;  // when a message was, and that was told
-  bool stopped_ = false;                      // by the topic
   bool finished_ = false;                     // the node ends
   bool silent_ = true;  // nothing, or a zero, was sent last and there is no drive
   int reported_waypoint_ = -1;
@@ -164,6 +157,7 @@ class DriveLoop {
                         [this](double seconds) { timeWentBack(seconds); }};
   ros::Subscriber manual_subscriber_;
   ros::Subscriber stop_subscriber_;
+  ros::Subscriber localization_subscriber_;
 };
 
 }  // namespace grid_path_planner::nodes

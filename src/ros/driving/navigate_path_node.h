@@ -1,13 +1,13 @@
 // The node `navigate_path`: drives a path, a waypoint file or the goals of an action.
 //
-//   subscribes  path             nav_msgs/Path; not with ~config_filename. An empty one stops the
-//                                vehicle
+//   subscribes  path             nav_msgs/Path; an empty one stops; not with ~config_filename
 //               projected_map    nav_msgs/OccupancyGrid, with its updates and their heartbeat; the
 //                                vehicle stops before occupied cells, and stands without a map
 //               speed_limit      nav_msgs/OccupancyGrid; percent of max_speed that cells allow
 //               tf               the vehicle's pose; the vehicle stops while the pose is not known
 //               stop             std_msgs/Bool; zeros while it is true
 //               manual_control   std_msgs/Bool; a joystick commands: the drive is paused
+//               localization_status   std_msgs/String; "OK: ...": DEGRADED drives slowly for a while, LOST holds
 //   publishes   cmd_vel          geometry_msgs/Twist in base_link
 //               current_waypoint geometry_msgs/PoseStamped, latched; the waypoint that is driven to
 //               drive_cancelled  std_msgs/Empty; by ~cancel

@@ -6,6 +6,7 @@
 
 #include "grid_path_planner/following/follower_options.h"
 #include "grid_path_planner/following/path_clearance_check.h"
+#include "ros/driving/localization_gate.h"
 #include "ros/guard/scheduling/realtime_priority.h"
 #include "ros/messages/zero_heading.h"
 #include "vehicle/description.h"
@@ -28,7 +29,8 @@ struct NavigatePathOptions {
   std::string map_frame = "map";
   bool use_speed_limit = false;
   std::string base_frame = "base_link";
-  double tf_timeout = 0.5;     // s
+  double tf_timeout = 0.5;  // s
+  DegradedDriving degraded;
   double control_rate = 50.0;  // Hz, wall time
   int realtime_priority = 1;
   double master_timeout = 30.0;  // s, wall time
@@ -113,6 +115,14 @@ void visitOptions(NavigatePathOptions& o, Visitor&& visit) {
         base::OptionInfo{"The vehicle stops while its newest pose is older, or what joins its "
                          "path's frame to the map's",
                          "s", 0.01, 3600.0});
+  visit("degraded_speed", o.degraded.speed,
+        base::OptionInfo{"Share of max_speed that is driven while localization_status says "
+                         "DEGRADED; while it says LOST, or has ceased, the vehicle stands",
+                         "", 0.01, 1.0});
+  visit("degraded_time", o.degraded.time,
+        base::OptionInfo{"How long it is driven so; then it stands, and ~resume drives on for as "
+                         "long",
+                         "s", 0.0, 1e6});
   visit(
       "control_rate", o.control_rate,
       base::OptionInfo{"How often the velocity is computed, by the wall clock; simulated time that "

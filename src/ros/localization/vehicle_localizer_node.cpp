@@ -1,7 +1,6 @@
 #include "ros/localization/vehicle_localizer_node.h"
 
 #include <ros/console.h>
-#include <std_msgs/String.h>
 #include <std_srvs/Trigger.h>
 
 #include <utility>
@@ -322,15 +321,17 @@ void VehicleLocalizerNode::keepHeading(localization::Stamp time) {
 void VehicleLocalizerNode::announce(const LocalizationReport& report, bool is_withheld) {
   const std::string rival = rivals_.rival();
   const std::string told = nameOf(report.status) + rival + (is_withheld ? ", withheld" : "");
-  if (told == std::exchange(told_, told)) return;
-  std_msgs::String message;
-  message.data = std::string(nameOf(report.status)) + ": " + report.sentence;
-  publishLatched(status_publisher_, message);
-  ROS_INFO_STREAM(message.data);
+  if (told == told_.what) return;
+  told_.what = told;
+  told_.message.data = std::string(nameOf(report.status)) + ": " + report.sentence;
+  publishLatched(status_publisher_, told_.message);
+  ROS_INFO_STREAM(told_.message.data);
   if (!rival.empty()) ROS_ERROR_STREAM("No transform is published: " << rival);
 }
 
 void VehicleLocalizerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  publishLatched(status_publisher_,
+                 told_.message);  // whoever drives by it hears that this node lives
   const std::string rival = rivals_.rival();
   const bool well = report_.status == LocalizationStatus::OK && rival.empty();
   const bool lost = report_.status == LocalizationStatus::LOST || !rival.empty();

@@ -30,6 +30,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 #include <ros/steady_timer.h>
+#include <std_msgs/String.h>
 
 #include <map>
 #include <memory>
@@ -100,7 +101,11 @@ class VehicleLocalizerNode {
   FixMarkers fixes_;
   ros::Publisher status_publisher_;
   localization::LocalizationReport report_;
-  std::string told_;  // of status, rival and whether something is withheld
+  struct Told {
+    std::string what;  // status, rival and whether something is withheld
+    std_msgs::String message;
+  };
+  Told told_;  // last
 
   // What calls is destroyed before what it calls.
   std::map<localization::Source, std::unique_ptr<InputBase>> inputs_;

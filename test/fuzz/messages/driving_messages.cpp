@@ -2,6 +2,7 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
+#include <std_msgs/String.h>
 
 #include <cmath>
 
@@ -9,6 +10,7 @@
 #include "fuzz/fuzz_target.h"
 #include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
+#include "ros/driving/localization_gate.h"
 #include "ros/input/finished_goals.h"
 #include "ros/messages/velocity_message.h"
 
@@ -51,6 +53,29 @@ FUZZ_TARGET(finished_goals, seedsOfGivenGoals) {
     old.poses.resize(1);
     old.poses[0].header.stamp = ros::TIME_MIN;
     mustHold(goals.isOver(old), "what path_planner got before time went back is over");
+  }
+}
+
+std::vector<std::string> seedsOfLocalizationStatus() {
+  std_msgs::String degraded, lost, none;
+  degraded.data = "DEGRADED: fixes that agree contradict the pose; the pose is known to 0.4 m";
+  lost.data = "LOST";
+  none.data = "well: so it is";
+  return {bytesOf(degraded) + bytesOf(lost), bytesOf(none)};
+}
+
+// Whatever it said, a vehicle holds for a reason that a log can take, or is driven by a share of its speed.
+FUZZ_TARGET(localization_status, seedsOfLocalizationStatus) {
+  Messages messages(input);
+  nodes::LocalizationGate gate;
+  for (double now = 0.0; !messages.atEnd(); now += 20.0) {
+    const auto message = messages.next<std_msgs::String>();
+    if (!message) return;
+    gate.hear(message->data, now);
+    const double share = gate.speedShare({});
+    mustHold(share > 0.0 && share <= 1.0, "a share is one");
+    if (const auto why = gate.problem(now, {}))
+      mustHold(why->size() < 700 && why->find('\n') == std::string::npos, "a sentence is one");
   }
 }
 

@@ -22,6 +22,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped
 from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
 from nav_msgs.msg import OccupancyGrid
+from std_msgs.msg import String
 
 from wheeled_robot import WheeledRobot
 
@@ -69,12 +70,12 @@ def pose(x, y, yaw):
     return message
 
 
-def until(condition, seconds=DEADLINE):
+def until(condition, seconds=DEADLINE, meanwhile=lambda: time.sleep(0.02)):
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:
             return False
-        time.sleep(0.02)
+        meanwhile()
     return True
 
 
@@ -143,6 +144,34 @@ class Office(unittest.TestCase):
         self.assertIn("jumped by", self.levels["navigate_path: path following"][1])
         self.assertLess(self.robot.driven - driven, 1e-3)
         self.assertEqual(0, self.levels["navigate_path: vehicle"][0])
+
+    def test_localiser(self):
+        """DEGRADED drives slowly and for a while, LOST stands, a localiser that ceases too."""
+        self.start("vehicle:=%s")
+        status = rospy.Publisher("localization_status", String, queue_size=1, latch=True)
+        self.addCleanup(status.unregister)
+
+        def says(text):
+            status.publish(text)
+            time.sleep(1.0)  # the robot follows, and brakes
+            self.robot.fastest, driven = 0.0, self.robot.driven
+            time.sleep(0.5)
+            return self.robot.driven - driven
+        for goal in ((2.8, 4.2, 1.5), (1.0, 1.0, -1.5)):
+            self.client.send_goal(MoveBaseGoal(target_pose=pose(*goal)))
+            self.assertTrue(until(lambda: self.robot.speed > 0.3), self.said())
+            self.assertLess(says("LOST: nothing is known"), 1e-3)
+            self.assertGreater(says("DEGRADED: fixes contradict the pose"), 0.01)
+            self.assertLessEqual(self.robot.fastest, 0.25 + 1e-6)
+            says("OK: the pose is known")
+            self.assertTrue(until(lambda: self.client.get_state() == GoalStatus.SUCCEEDED, DEADLINE, lambda: says("OK: it is")),
+                            self.said())
+        self.client.send_goal(MoveBaseGoal(target_pose=pose(2.8, 4.2, 1.5)))
+        self.assertTrue(until(lambda: "has said nothing for more than 5 s" in self.said()))
+        time.sleep(1.0)
+        still = self.robot.driven
+        time.sleep(0.5)
+        self.assertLess(self.robot.driven - still, 1e-3)
 
     def test_undescribed(self):
         self.start()

@@ -51,7 +51,7 @@ NODES = {
         arguments=["_publish_rectangles:=true", "_replan_period:=0.5"], tf="listens", probe=probes.plans),
     "navigate_path": Row(
         inputs=dict(MAPS, path="nav_msgs/Path", stop="std_msgs/Bool", manual_control="std_msgs/Bool",
-                    speed_limit="nav_msgs/OccupancyGrid"),
+                    speed_limit="nav_msgs/OccupancyGrid", localization_status="std_msgs/String"),
         outputs={"cmd_vel": "geometry_msgs/Twist", "current_waypoint": "geometry_msgs/PoseStamped",
                  "drive_cancelled": "std_msgs/Empty"},
         services={"~pause": TRIGGER, "~resume": TRIGGER, "~cancel": TRIGGER},
