@@ -8,9 +8,14 @@ set(GPP_COMPONENT_OF_read_world simulation)
 
 # gpp_component_of(<variable> <item>): the component that a room, a program or a launch file is installed with.
 function(gpp_component_of variable item)
+  set(is_target FALSE)
+  if(item MATCHES "^${PROJECT_NAME}_")
+    set(is_target TRUE)
+  endif()
   string(REGEX REPLACE "^${PROJECT_NAME}_" "" item ${item})
   set(component ${CMAKE_INSTALL_DEFAULT_COMPONENT_NAME})
-  if(DEFINED GPP_COMPONENT_OF_${item})
+  # The room vehicle is of planning, the launch file of that name of simulation.
+  if(DEFINED GPP_COMPONENT_OF_${item} AND NOT (is_target AND item IN_LIST GPP_PLANNING_ROOMS))
     set(component ${GPP_COMPONENT_OF_${item}})
   endif()
   set(${variable} ${component} PARENT_SCOPE)

@@ -3,7 +3,7 @@
 //   RouteProgress progress(path, Join::NEAREST, options, events);
 //   progress.join(pose);                               // the route starts at the vehicle
 //   if (const auto ending = progress.advance(pose, time)) use(*ending);  // arrived, or failed
-//   controller.follow(progress.position(pose.position), pose, seconds);
+//   controller.follow(progress.position(pose.position), pose, seconds, 1.0);
 //
 // Guaranteed: every waypoint is reported as reached or as missed, once in a lap, or lies before the
 // point where the path was joined.

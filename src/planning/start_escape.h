@@ -1,7 +1,7 @@
 // The straight lines by which a vehicle may leave a start that is too near to something, or in it.
 //
 //   const StartEscape escape(costs, kept, start, start_escape_radius, stop);
-//   if (escape.leads(costs.geometry().centre(cell))) ...
+//   if (escape.leads(costs.geometry().centre(cell))) take(cell);
 //
 // Guaranteed: no point of such a line is nearer to an occupied cell, an unknown one or the border than the
 // start is, where that is nearer than what is kept. From inside a class of cells, it leaves them at a place

@@ -2,7 +2,7 @@
 // followed, then braking to a stop, swept with its outline over a map.
 //
 //   const MotionCheck check(vehicle, geometry, obstacles, {state, commanded.pending(), period});
-//   if (const auto contact = check.contactOf(command)) send a slower one
+//   if (const auto contact = check.contactOf(command)) slow(command);
 //
 // Guaranteed: a vehicle that follows its description and drifts by no more than it says touches no cell on a motion for which
 // contactOf() is none, and of such commands a zero is always one a period later. The outline grows by the drift while the

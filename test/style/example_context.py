@@ -17,7 +17,22 @@ CONTEXT = {
                              "extern const vehicle::Footprint footprint; extern const std::vector<Eigen::Vector3d> ahead;",
     "dubins.h": "extern const Eigen::Vector2d from, to; extern const double direction, radius; void add(const Eigen::Vector2d&);",
     "footprint.h": "void search(double radius);", "joystick_loop.h": "extern ros::NodeHandle nh; extern TeleopJoyOptions options;",
-    "motions.h": "extern const Path path; extern const Pose start, goal; void check(const Motion&);",
+    "motions.h": "extern const Path path; extern const Pose start, goal; void check(const vehicle::Motion&);",
+    "motion_model.h": "extern const Description vehicle; extern const Eigen::Vector2d position; extern const double yaw;"
+                      "extern const base::BodyVelocity command;",
+    "commanded_velocity.h": "extern const Description vehicle; extern const double now; extern const base::BodyVelocity command;"
+                            "void predict(const base::BodyVelocity&, const std::vector<TimedCommand>&);",
+    "motion_check.h": "extern const Description vehicle; extern const grid::GridGeometry geometry; extern const FootprintObstacles obstacles;"
+                      "extern const PlanarState state; extern const CommandedVelocity commanded; extern const double period;"
+                      "extern base::BodyVelocity command; void slow(base::BodyVelocity&);",
+    "motion_gate.h": "extern const vehicle::Description* const vehicle; extern const double now, rate, age; extern following::FollowInput input;"
+                     "extern const path::Pose pose_in_map; extern const grid::OccupancyGrid map; extern const following::ClearanceLimits limits;"
+                     "extern const base::BodyVelocity velocity;",
+    "localization_gate.h": "extern const double now; extern const DegradedDriving options; void hold(const std::string&);",
+    "hold_reasons.h": "extern HoldReasons reasons; extern const NavigatePathOptions options; extern const std::string stop_topic;"
+                      "void hold(const std::string&);",
+    "start_escape.h": "extern const costmap::CostGrid costs; extern const costmap::KeptDistances kept; extern const Eigen::Vector2d start;"
+                      "extern const double start_escape_radius; extern const grid::Cell cell; void take(grid::Cell);",
     "sweep.h": "extern const Footprint footprint; extern const grid::GridGeometry geometry; extern const Motion motion;"
                "extern const FootprintObstacles obstacles; void report(grid::Cell, const Eigen::Vector2d&, double yaw);",
     "fitted_plan.h": "extern const vehicle::Footprint footprint; extern const costmap::CostGrid costs; extern std::size_t memory;"
@@ -393,8 +408,8 @@ CONTEXT = {
     "study_job.h": "extern StudyJob::MapReader read_map; void progress(std::size_t);",
     "route_progress.h": """#include "following/velocity_controller.h"
         extern Path path; extern FollowerOptions options; extern FollowEvents events; extern Pose pose;
-        extern VelocityController controller; extern double time, seconds;""",
-    "velocity_controller.h": "extern FollowerOptions options; extern const DrivenRoute& route; extern Pose pose;"
+        extern VelocityController& controller; extern double time, seconds;""",
+    "velocity_controller.h": "extern const vehicle::Description* const vehicle; extern FollowerOptions options; extern const DrivenRoute& route; extern Pose pose;"
                              "extern std::size_t segment; extern double share, seconds; extern bool at_stop;",
     "radix_heap.h": "extern std::uint32_t f, node;",
     "diagonal_jump_bits.h": "extern const DiagonalJumpBits& bits; extern Cell cell;",

@@ -1,7 +1,7 @@
 // Whether a vehicle may be driven by what its localiser says of itself: OK drives, DEGRADED slowly and for a while, LOST not.
 //
 //   LocalizationGate gate;
-//   gate.hear("DEGRADED: fixes contradict the pose; ...", now);   // std_msgs/String on localization_status
+//   gate.hear("DEGRADED: fixes contradict the pose", now);   // std_msgs/String on localization_status
 //   if (const auto why = gate.problem(now, options)) hold(*why);
 //
 // A localiser that never spoke is no reason to hold, one that fell silent is. Belongs to one thread.

@@ -184,7 +184,9 @@ RIGHT = {
     "nav_msgs/Odometry": lambda node: of(
         "nav_msgs/Odometry", header=header(node), child_frame_id="base_link", pose={"pose": pose(0.5, 0.5)}),
     "geometry_msgs/Twist": lambda _: of("geometry_msgs/Twist", linear={"x": 0.5}),
-    "std_msgs/Bool": lambda _: of("std_msgs/Bool", data=False), "std_msgs/Empty": lambda _: of("std_msgs/Empty"),
+    "std_msgs/Bool": lambda _: of("std_msgs/Bool", data=False),
+    "std_msgs/String": lambda _: of("std_msgs/String", data="OK: the pose is known to 0.1 m"),
+    "std_msgs/Empty": lambda _: of("std_msgs/Empty"),
     "grid_path_planner/NavigatePathActionGoal": drive_goal, "grid_path_planner/PlanPathActionGoal": plan_goal,
     "move_base_msgs/MoveBaseActionGoal": go_to_goal,
     "grid_path_planner/PlanPathActionResult": FOUND, "grid_path_planner/NavigatePathActionResult": ARRIVED,
