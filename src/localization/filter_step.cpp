@@ -26,6 +26,10 @@ constexpr double kUnknownTilt = 0.25, kUnknownTiltWithoutAttitude = 1.0;  // rad
 // IMU that was started again has a heading of its own, and what was known of it says nothing.
 constexpr double kSameImu = 2.0;
 
+// For so long that what is measured lies where the pose lets expect it says little, after a part of that began anew by
+// measurements that contradicted the others.
+constexpr double kNewPose = 60.0;  // s
+
 using Scalar = Eigen::Matrix<double, 1, 1>;
 
 Inertial between(const TimedImu& from, const TimedImu& to, double stamp) {
@@ -126,12 +130,20 @@ Outcome FilterStep::fuse(Context& context, Innovation innovation, const Deviatio
   Outcome outcome{Verdict::TAKEN, innovation.size(), innovation.nis()};
   if (!std::isfinite(outcome.nis)) return outcome.verdict = Verdict::GATED, outcome;
   Rejections& rejections = snapshot.rejections[static_cast<std::size_t>(context.source)];
-  if (!passes(innovation)) {
+  Contradiction& contradiction = snapshot.contradictions[static_cast<std::size_t>(context.source)];
+  if (passes(innovation)) {
+    const auto& begun = snapshot.begun_anew;
+    const bool is_new = begun && secondsBetween(begun->stamp, snapshot.stamp) < kNewPose;
+    contradiction.add(snapshot.stamp, is_new ? Agreement::CONFIRMS_NEW : Agreement::CONFIRMS);
+  } else {
     const double drift = square(options_.start_velocity);
     const int agreeing = rejections.add(snapshot.stamp, deviation, drift, gates_[6]);
+    const bool resets = agreeing >= options_.reset_after && context.source != Source::COMMAND;
+    contradiction.add(snapshot.stamp, resets                 ? Agreement::BEGINS_ANEW
+                                      : rejections.isAlike() ? Agreement::CONTRADICTS_AGAIN
+                                                             : Agreement::CONTRADICTS);
     // A vehicle that does not do as it is told is no sign that its velocity is wrong.
-    if (agreeing < options_.reset_after || context.source == Source::COMMAND)
-      return outcome.verdict = Verdict::GATED, outcome;
+    if (!resets) return outcome.verdict = Verdict::GATED, outcome;
     (this->*forget)(snapshot.estimate);
     innovation.project(snapshot.estimate.covariance);
     outcome.verdict = Verdict::RESET;
@@ -322,6 +334,7 @@ void FilterStep::beginAnew(FilterSnapshot& snapshot, const ImuMeasurement& imu) 
   doubtHeading(snapshot, imu);
   snapshot.dvl_used.reset();
   snapshot.rejections = {};
+  snapshot.contradictions = {};
   snapshot.begun_anew.reset();
   snapshot.first_fix.reset();
   snapshot.started = start_ == Start::AT_ORIGIN;
@@ -349,6 +362,7 @@ Outcome FilterStep::setPose(FilterSnapshot& snapshot, const PoseFix& fix) const 
   snapshot.estimate = next;
   snapshot.started = true;
   snapshot.rejections = {};
+  snapshot.contradictions = {};
   snapshot.begun_anew.reset();
   return {Verdict::TAKEN, 0, 0.0};
 }

@@ -20,6 +20,7 @@
 #include <array>
 #include <optional>
 
+#include "localization/contradiction.h"
 #include "localization/filter_options.h"
 #include "localization/kalman_update.h"
 #include "localization/measurement.h"
@@ -60,6 +61,7 @@ struct FilterSnapshot {
   std::optional<double> depth_offset;           // m, of a filter that starts at the origin
   std::optional<Stamp> dvl_used, command_used;  // a command that was gated, too
   std::array<Rejections, kSources> rejections;
+  std::array<Contradiction, kSources> contradictions;
   // The last one that no fix of another kind has confirmed, and no pose that was set.
   std::optional<NewBegin> begun_anew;
 };

@@ -26,10 +26,16 @@ class Rejections {
   int add(Stamp stamp, const Deviation& deviation, double drift, double limit);
   void clear() { count_ = 0; }
   int count() const { return count_; }
+  // Whether the last one was like the one before it, whatever was taken between them; of what is long ago as if it were
+  // 3 s ago.
+  bool isAlike() const { return is_alike_; }
+  // By how far the last one was off.
+  const Deviation& last() const { return last_; }
   Stamp newest() const { return stamp_; }
 
  private:
   int count_ = 0;
+  bool is_any_ = false, is_alike_ = false;
   Stamp stamp_ = 0;
   Deviation last_;
 };

@@ -35,19 +35,6 @@ std::string whatIsMissing(const LaggedFilter& map) {
          "IMU";
 }
 
-// Two measurements in a row that were rejected and agree with each other. Those of acoustic and marker fixes stand until a
-// fix is used; those of what comes all the time, as a heading, for `lasting` s: its source may have been switched off.
-bool isContradicted(const FilterSnapshot& snapshot, Stamp now, double lasting) {
-  for (std::size_t source = 0; source < snapshot.rejections.size(); ++source) {
-    const Rejections& rejections = snapshot.rejections[source];
-    if (rejections.count() < 2) continue;
-    const bool stands =
-        isFix(static_cast<Source>(source)) && static_cast<Source>(source) != Source::HEADING;
-    if (stands || secondsBetween(rejections.newest(), now) <= lasting) return true;
-  }
-  return false;
-}
-
 std::optional<FilterSnapshot> startedAt(const LaggedFilter& filter, Stamp stamp) {
   const FilterSnapshot snapshot = filter.snapshotAt(stamp);
   return snapshot.started ? std::make_optional(snapshot) : std::nullopt;
@@ -145,18 +132,32 @@ double VehicleLocalizer::sinceFix(Stamp now) const {
   return newest ? std::max(0.0, secondsBetween(*newest, now)) : 0.0;
 }
 
-// Why the pose may be off though the standard deviations are small; empty: nothing shows it.
-std::string VehicleLocalizer::problemOf(const FilterSnapshot& snapshot, Stamp now) const {
-  if (const std::string silent = silence(now); !silent.empty()) return silent;
-  if (isContradicted(snapshot, now, options_.input_timeout))
-    return "fixes that agree contradict the pose";
-  if (options_.fix_timeout > 0.0 && sinceFix(now) > options_.fix_timeout / 3.0)
-    return "no fix has been used for " + rounded(sinceFix(now)) + " s";
+// That something began anew, while that is in doubt; empty: nothing did.
+std::string VehicleLocalizer::newBegin(const FilterSnapshot& snapshot, Stamp now) const {
   if (!snapshot.begun_anew) return {};
   const double since = secondsBetween(snapshot.begun_anew->stamp, now);
   if (since >= options_.reset_doubt) return {};
   return std::string(nameOf(snapshot.begun_anew->source)) + " began anew what it measures " +
-         rounded(since) + " s ago, against the others";
+         rounded(since) + " s ago, against the others; ";
+}
+
+// What is said before the deviations: why the pose may be off though they are small; empty: nothing shows it.
+std::string VehicleLocalizer::problemOf(const FilterSnapshot& snapshot, Stamp now) const {
+  if (const std::string silent = silence(now); !silent.empty()) return silent + "; ";
+  if (options_.fix_timeout > 0.0 && sinceFix(now) > options_.fix_timeout / 3.0)
+    return "no fix has been used for " + rounded(sinceFix(now)) + " s; ";
+  return newBegin(snapshot, now);
+}
+
+std::string VehicleLocalizer::deviationsText(const LocalizationReport& report, bool is_new) const {
+  std::string text = std::string(is_new ? "if that is right, " : "") + "the pose is known to " +
+                     rounded(report.deviation) + " m, " + rounded(report.angle_deviation) +
+                     " deg (standard deviations)";
+  if (report.deviation > options_.max_deviation)
+    text += ", max_deviation is " + rounded(options_.max_deviation) + " m";
+  if (report.angle_deviation > options_.max_angle)
+    text += ", max_angle is " + rounded(options_.max_angle) + " deg";
+  return text;
 }
 
 LocalizationReport VehicleLocalizer::report(Stamp now) const {
@@ -166,27 +167,33 @@ LocalizationReport VehicleLocalizer::report(Stamp now) const {
   const Covariance& covariance = snapshot->estimate.covariance;
   report.deviation = worstDeviation(covariance, kPosition);
   report.angle_deviation = worstDeviation(covariance, kAttitude) * 180.0 / M_PI;
-  report.sentence = "the pose is known to " + rounded(report.deviation) + " m, " +
-                    rounded(report.angle_deviation) + " deg (standard deviations)";
-  if (report.deviation > options_.max_deviation)
-    report.sentence += ", max_deviation is " + rounded(options_.max_deviation) + " m";
-  if (report.angle_deviation > options_.max_angle)
-    report.sentence += ", max_angle is " + rounded(options_.max_angle) + " deg";
   const double without_fix =
       options_.fix_timeout > 0.0 ? sinceFix(now) / options_.fix_timeout : 0.0;
-  const std::string problem = problemOf(*snapshot, now);
-  if (!problem.empty()) report.sentence = problem + "; " + report.sentence;
   const double worst = std::max({report.deviation / options_.max_deviation,
                                  report.angle_deviation / options_.max_angle, without_fix});
-  if (!(worst <= 1.0))  // nor is one that is no number
-    report.status = LocalizationStatus::LOST;
-  else if (worst > 1.0 / 3.0 || !problem.empty())
-    report.status = LocalizationStatus::DEGRADED;
-  else
-    report.status = LocalizationStatus::OK;
+  const std::string problem = problemOf(*snapshot, now);
+  const auto doubt = doubtOf(*snapshot, now, options_);
+  report.sentence = problem + deviationsText(report, !newBegin(*snapshot, now).empty());
+  if (doubt) tell(*doubt, problem, report);
+  const bool is_lost = (doubt && doubt->lasts) || !(worst <= 1.0);  // nor is one that is no number
+  const bool is_doubtful = worst > 1.0 / 3.0 || doubt || !problem.empty();
+  report.status = is_lost       ? LocalizationStatus::LOST
+                  : is_doubtful ? LocalizationStatus::DEGRADED
+                                : LocalizationStatus::OK;
   if (report.status == LocalizationStatus::LOST)
-    report.sentence += "; until a fix, set_pose or reset tell it, map -> odom ceases";
+    report.sentence +=
+        doubt && doubt->lasts
+            ? "; until fixes confirm it, or set_pose or reset tell it, map -> odom ceases"
+            : "; until a fix, set_pose or reset tell it, map -> odom ceases";
   return report;
+}
+
+// Who says that fixes contradict the pose does not say what its covariance makes of it.
+void VehicleLocalizer::tell(const PoseDoubt& doubt, const std::string& problem,
+                            LocalizationReport& report) const {
+  report.sentence = problem + sentenceOf(doubt);
+  report.deviation = std::max(report.deviation, doubt.metres);
+  report.angle_deviation = std::max(report.angle_deviation, doubt.degrees);
 }
 
 }  // namespace grid_path_planner::localization

@@ -16,6 +16,7 @@
 
 #include "localization/lagged_filter.h"
 #include "localization/localizer_options.h"
+#include "localization/pose_doubt.h"
 
 namespace grid_path_planner::localization {
 
@@ -26,8 +27,9 @@ const char* nameOf(LocalizationStatus status);
 struct LocalizationReport {
   LocalizationStatus status = LocalizationStatus::INITIALIZING;
   std::string sentence = {};
-  double deviation = 0.0;        // m, standard deviation of the position along its worst axis
-  double angle_deviation = 0.0;  // deg, of the attitude
+  // Standard deviation of the position along its worst axis, m, and of the attitude, deg; by how far what contradicts the
+  // pose is off, where that is more.
+  double deviation = 0.0, angle_deviation = 0.0;
 };
 
 // How long an input may be silent, s, before it is lost.
@@ -73,7 +75,10 @@ class VehicleLocalizer {
  private:
   std::string silence(Stamp now) const;
   double sinceFix(Stamp now) const;
+  std::string newBegin(const FilterSnapshot& snapshot, Stamp now) const;
   std::string problemOf(const FilterSnapshot& snapshot, Stamp now) const;
+  std::string deviationsText(const LocalizationReport& report, bool is_new) const;
+  void tell(const PoseDoubt& doubt, const std::string& problem, LocalizationReport& report) const;
 
   LocalizerOptions options_;
   LaggedFilter map_, odometry_;

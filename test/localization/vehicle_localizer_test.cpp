@@ -102,7 +102,7 @@ TEST(Localizer, IsDegradedAfterWhatBeganThePoseAnew) {
   trusting.reset_doubt = 0.0;
   VehicleLocalizer believing(trusting);
   bool believed = false;
-  for (Measurement measurement : sensors.run(70.0)) {
+  for (Measurement measurement : sensors.run(90.0)) {
     if (measurement.source == Source::USBL && measurement.stamp > stampAt(30.0))
       std::get<PositionFix>(measurement.data).position.x() += 5.0;
     localizer.add(measurement);
@@ -113,10 +113,10 @@ TEST(Localizer, IsDegradedAfterWhatBeganThePoseAnew) {
   }
   EXPECT_TRUE(believed);
   EXPECT_TRUE(
-      contains(localizer.report(stampAt(70.0)).sentence, "USBL began anew what it measures"))
-      << localizer.report(stampAt(70.0)).sentence;
-  localizer.add(poseSetAt(70.0, sensors));
-  EXPECT_FALSE(contains(localizer.report(stampAt(70.0)).sentence, "anew"));
+      contains(localizer.report(stampAt(90.0)).sentence, "USBL began anew what it measures"))
+      << localizer.report(stampAt(90.0)).sentence;
+  localizer.add(poseSetAt(90.0, sensors));
+  EXPECT_FALSE(contains(localizer.report(stampAt(90.0)).sentence, "anew"));
 }
 
 // Of 400 seeds 17 said OK for more than 2 s while they were off by metres; these are some of them.
@@ -132,7 +132,7 @@ TEST(Localizer, DoesNotSayOkWhileItIsOff) {
     ok += run.ok / 4.0;
   }
   EXPECT_GT(ok, 0.1) << "it says OK where it is right";
-  EXPECT_GT(wrong, 0) << "without reset_doubt";
+  EXPECT_EQ(wrong, 0) << "without reset_doubt, by the odds of what contradicted the pose";
 }
 
 // Measurements of an IMU whose heading has drifted.
