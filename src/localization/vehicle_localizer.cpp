@@ -68,6 +68,8 @@ Verdict VehicleLocalizer::add(const Measurement& measurement) {
     throw InputError("it is " + rounded(secondsBetween(measurement.stamp, map_.newest())) +
                      " s older than the newest input, more than the history");
   if (!isFix(measurement.source)) odometry_.add(measurement);
+  if (const auto* imu = std::get_if<ImuMeasurement>(&measurement.data))
+    gravity_.add(measurement.stamp, *imu, base_);
   std::optional<Stamp>& used = used_[static_cast<std::size_t>(measurement.source)];
   if (verdict == Verdict::TAKEN || verdict == Verdict::RESET)
     used = std::max(used.value_or(measurement.stamp), measurement.stamp);
@@ -84,6 +86,7 @@ void VehicleLocalizer::use(const LocalizerOptions& options) {
 void VehicleLocalizer::reset() {
   map_.reset();
   odometry_.reset();
+  gravity_ = {};
   used_ = {};
 }
 
@@ -162,7 +165,10 @@ std::string VehicleLocalizer::deviationsText(const LocalizationReport& report, b
 
 LocalizationReport VehicleLocalizer::report(Stamp now) const {
   const auto snapshot = mapAt(now);
-  if (!snapshot) return {LocalizationStatus::INITIALIZING, whatIsMissing(map_)};
+  const std::string wrong_gravity = gravity_.sentence(options_.filter.gravity);
+  if (!snapshot)
+    return {LocalizationStatus::INITIALIZING,
+            wrong_gravity.empty() ? whatIsMissing(map_) : wrong_gravity};
   LocalizationReport report;
   const Covariance& covariance = snapshot->estimate.covariance;
   report.deviation = worstDeviation(covariance, kPosition);
@@ -180,6 +186,7 @@ LocalizationReport VehicleLocalizer::report(Stamp now) const {
   report.status = is_lost       ? LocalizationStatus::LOST
                   : is_doubtful ? LocalizationStatus::DEGRADED
                                 : LocalizationStatus::OK;
+  if (!wrong_gravity.empty()) tellGravity(wrong_gravity, report);
   if (report.status == LocalizationStatus::LOST)
     report.sentence +=
         doubt && doubt->lasts
@@ -194,6 +201,14 @@ void VehicleLocalizer::tell(const PoseDoubt& doubt, const std::string& problem,
   report.sentence = problem + sentenceOf(doubt);
   report.deviation = std::max(report.deviation, doubt.metres);
   report.angle_deviation = std::max(report.angle_deviation, doubt.degrees);
+}
+
+// A vehicle that is upside down may well be where the pose says.
+void VehicleLocalizer::tellGravity(const std::string& sentence, LocalizationReport& report) const {
+  const bool is_upside_down = gravity_.fault(options_.filter.gravity) == GravityFault::UPSIDE_DOWN;
+  if (!is_upside_down) report.status = LocalizationStatus::LOST;
+  if (report.status == LocalizationStatus::OK) report.status = LocalizationStatus::DEGRADED;
+  report.sentence = sentence + "; " + report.sentence;
 }
 
 }  // namespace grid_path_planner::localization

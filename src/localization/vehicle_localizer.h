@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 
+#include "localization/gravity_check.h"
 #include "localization/lagged_filter.h"
 #include "localization/localizer_options.h"
 #include "localization/pose_doubt.h"
@@ -46,8 +47,12 @@ class VehicleLocalizer {
   // Other options, from the next measurement on. Throws InputError as the constructor does.
   void use(const LocalizerOptions& options);
 
-  // Forgets everything.
+  // Forgets everything but where the vehicle is in the body frame.
   void reset();
+
+  // Turns vectors of the vehicle into the body frame, which is that of the IMU; not set: they are the same. It says
+  // whether the vehicle is upside down.
+  void setBase(const Eigen::Quaterniond& base) { base_ = base; }
 
   // What was known of the IMU's heading before the first measurement, by headingAt(). Without, its heading is taken
   // for true where the pose begins with positions.
@@ -79,9 +84,12 @@ class VehicleLocalizer {
   std::string problemOf(const FilterSnapshot& snapshot, Stamp now) const;
   std::string deviationsText(const LocalizationReport& report, bool is_new) const;
   void tell(const PoseDoubt& doubt, const std::string& problem, LocalizationReport& report) const;
+  void tellGravity(const std::string& sentence, LocalizationReport& report) const;
 
   LocalizerOptions options_;
   LaggedFilter map_, odometry_;
+  GravityCheck gravity_;
+  Eigen::Quaterniond base_ = Eigen::Quaterniond::Identity();
   std::array<std::optional<Stamp>, kSources> used_{};  // the newest that was taken
 };
 

@@ -105,5 +105,37 @@ TEST(SoundSensors, AreBelievedAgainAfterTheyContradictedThePose) {
   EXPECT_EQ(run.seconds.back().report.status, LocalizationStatus::OK);
 }
 
+// Each is named as what it is, before there is a pose and afterwards.
+TEST(Gravity, ThatIsMeasuredWronglyIsNamed) {
+  const std::pair<const char*, const char*> named[] = {
+      {"accelerometer in g", "it is in g, and must be in m/s^2"},
+      {"accelerometer without gravity", "its driver takes gravity off"},
+      {"accelerometer of the wrong sign", "its sign is wrong"},
+      {"IMU upside down", "upside down"}};
+  for (const auto& [fault, words] : named)
+    for (const Suite suite : {Suite::USBL, Suite::MARKERS})
+      for (const VerdictSecond& second :
+           runWithFault(faultNamed(fault), sensorsOf(suite, 1), 20.0).seconds)
+        if (second.t > 0.6) {
+          EXPECT_TRUE(contains(second.report.sentence, words)) << second.report.sentence;
+          EXPECT_NE(second.report.status, LocalizationStatus::OK);
+        }
+}
+
+// Of a vehicle that turns about by 0.5 rad, falls freely for a moment and is shaken.
+TEST(Gravity, MayBeMissedForAMoment) {
+  GravityCheck check;
+  for (int i = 0; i < 1000; ++i) {
+    ImuMeasurement imu;
+    const double tilt = 0.5 * std::sin(0.02 * i);
+    imu.attitude = faults::about(Eigen::Vector3d::UnitX(), tilt * 180.0 / M_PI);
+    imu.inertial.acceleration = imu.attitude->conjugate() * Eigen::Vector3d(0.0, 0.0, 9.8);
+    if (i % 200 > 180) imu.inertial.acceleration.setZero();
+    imu.inertial.acceleration.x() += 4.0 * std::sin(0.3 * i);
+    check.add(stampAt(0.01 * i), imu, Eigen::Quaterniond::Identity());
+    EXPECT_EQ(check.sentence(9.80665), "") << i;
+  }
+}
+
 }  // namespace
 }  // namespace grid_path_planner::localization

@@ -296,6 +296,7 @@ std::string VehicleLocalizerNode::publishPoses(const ros::Time& stamp) {
   if ((!poses.odometry && !poses.map) || !rivals_.isKnown()) return {};
   try {
     const localization::Mounting base = messages_.base();
+    localizer_.setBase(base.rotation);
     const bool by_other = options_.publish_map_to_odom && !options_.publish_odom_to_base &&
                           poses.map && poses.map_to_odom;
     if (by_other)

@@ -228,6 +228,7 @@ inline VerdictRun runWithFault(const SystematicFault& fault, SimulatedSensors se
   for (Measurement& measurement : all)
     fault.spoil(measurement, secondsBetween(kStart, measurement.stamp), sensors);
   VehicleLocalizer localizer{LocalizerOptions{}};
+  localizer.setBase(sensors.base.rotation);
   VerdictJudge judge;
   for (const Measurement& measurement : all) {
     const bool is_judge = measurement.source >= Source::DEPTH;
