@@ -1,7 +1,7 @@
 // Whether the measurements of one source contradict the pose, by the odds of what became of them.
 //
 //   contradiction.add(stamp, Agreement::CONTRADICTS_AGAIN);
-//   if (contradiction.lasts()) stop();
+//   if (contradiction.lasts(now)) warn();
 //
 // Two hypotheses: the pose is right, and the source errs now and then; or one of the two is wrong for good. Each
 // measurement adds the logarithm of how much likelier it is under the second (a cumulative sum, never below 0). What

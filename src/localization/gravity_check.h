@@ -1,7 +1,7 @@
 // Whether an accelerometer measures gravity as it must: +9.8 m/s^2 upwards at rest.
 //
 //   check.add(stamp, imu, base);
-//   if (check.fault() != GravityFault::NONE) warn(check.sentence(9.81));
+//   if (check.fault(9.81) != GravityFault::NONE) warn(check.sentence(9.81));
 //
 // It is judged by means over some seconds, so that a vehicle may move as it can. A filter that is given g instead of
 // m/s^2 would be kilometres off in a minute, and its covariance would not know.

@@ -28,6 +28,11 @@ CONTEXT = {
     "motion_gate.h": "extern const vehicle::Description* const vehicle; extern const double now, rate, age; extern following::FollowInput input;"
                      "extern const path::Pose pose_in_map; extern const grid::OccupancyGrid map; extern const following::ClearanceLimits limits;"
                      "extern const base::BodyVelocity velocity;",
+    "vehicle_options.h": "extern PlannerOptions options; using vehicle::readDescription;",
+    "contradiction.h": "extern Contradiction contradiction; extern const Stamp stamp, now; void warn();",
+    "gravity_check.h": "extern GravityCheck check; extern const Stamp stamp; extern const ImuMeasurement imu;"
+                       "extern const Eigen::Quaterniond base; void warn(const std::string&);",
+    "pose_doubt.h": "extern const FilterSnapshot snapshot; extern const Stamp now; extern const LocalizerOptions options; void say(const std::string&);",
     "localization_gate.h": "extern const double now; extern const DegradedDriving options; void hold(const std::string&);",
     "hold_reasons.h": "extern HoldReasons reasons; extern const NavigatePathOptions options; extern const std::string stop_topic;"
                       "void hold(const std::string&);",
