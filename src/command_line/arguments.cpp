@@ -11,6 +11,7 @@
 #include "command_line/node_config.h"
 #include "grid_path_planner/base/option_text.h"
 #include "grid_path_planner/planning/unused_options.h"
+#include "planning/vehicle_options.h"
 
 namespace grid_path_planner::command_line {
 
@@ -186,7 +187,9 @@ void describePlannerOptions(po::options_description& known, const PlannerOptions
   known.add_options()("weights", po::value<std::string>(),
                       "weights of free, unknown and occupied cells as F,U,O")(
       "config", po::value<std::string>(),
-      "YAML with parameters of the node path_planner, used where the command line gives no other");
+      "YAML with parameters of the node path_planner, used where the command line gives no other")(
+      "vehicle", po::value<std::string>(),
+      "description of the vehicle (YAML, doc/vehicle.md): its outline and turning radius");
 }
 
 PlannerOptions plannerOptionsFrom(const po::variables_map& values, const PlannerOptions& defaults) {
@@ -203,6 +206,8 @@ PlannerOptions plannerOptionsFrom(const po::variables_map& values, const Planner
     options.costmap.occupied_weight = static_cast<int>(weights[2]);
   }
   visitOptions(options, FromText{values});
+  if (values.count("vehicle") != 0)
+    takeFromVehicle(options, vehicle::readDescription(values["vehicle"].as<std::string>()));
   checkPlannerOptions(options);
   return options;
 }

@@ -35,8 +35,8 @@ void describeReading(boost::program_options::options_description& known);
 // InputError.
 grid::MapFileOptions readingOptionsFrom(const boost::program_options::variables_map& values);
 
-// Adds an option --some-name for every option some_name of PlannerOptions, --weights F,U,O and
-// --config FILE.
+// Adds an option --some-name for every option some_name of PlannerOptions, --weights F,U,O,
+// --config FILE and --vehicle FILE.
 void describePlannerOptions(boost::program_options::options_description& known,
                             const planning::PlannerOptions& defaults = {});
 

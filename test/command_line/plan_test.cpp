@@ -214,6 +214,32 @@ TEST_F(Plan, TakesTheYamlOfTheNode) {
       << warning;
 }
 
+TEST_F(Plan, TakesTheDescriptionOfTheVehicle) {
+  const std::string map = folder_.write("lane.map",
+                                        "type octile\nheight 5\nwidth 9\nmap\n"
+                                        "@@@@@@@@@\n"
+                                        "@.......@\n"
+                                        "@.......@\n"
+                                        "@.......@\n"
+                                        "@@@@@@@@@\n");
+  const auto planWith = [&](const std::string& shape, std::vector<std::string> more = {}) {
+    const std::string limits =
+        ", max_speed: 1, max_yaw_rate: 1, max_acceleration: 1, max_yaw_acceleration: 1}\n";
+    const std::string file =
+        folder_.write("robot.yaml", "vehicle: {drive: differential, " + shape + limits);
+    more.insert(more.begin(), {"plan", "--map", map, "--start", "2.5,2.5,0,0", "--goal",
+                               "6.5,2.5,0,0", "--vehicle", file});
+    return runCommand(runPlan, more);
+  };
+  EXPECT_EQ(planWith("radius: 1.4").code, 0) << planWith("radius: 1.4").error;
+  EXPECT_EQ(planWith("radius: 1.6").code, 1);
+  const std::string narrow = "outline: [[1.4, 1.2], [-1.4, 1.2], [-1.4, -1.2], [1.4, -1.2]]";
+  EXPECT_EQ(planWith(narrow).code, 0) << planWith(narrow).printed;
+  EXPECT_TRUE(contains(planWith("radius: 1.4", {"--radius", "1"}).error, "radius"));
+  EXPECT_TRUE(contains(planWith("radios: 1.4").error, "robot.yaml:1: vehicle has no 'radios'"))
+      << planWith("radios: 1.4").error;
+}
+
 // A file written as for move_base, below the node's name, was planned with radius 0, and the warning asked whether 'planner' was
 // meant.
 TEST_F(Plan, ParametersBelowTheNodesNameAreSeenAsSuch) {

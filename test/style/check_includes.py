@@ -26,6 +26,7 @@ PLANNER_FLOORS = {
 LENT = {
     "path/clearance_meter.h": {"ros_planning"},
     "path/straight_runs.h": {"planning"},
+    "planning/vehicle_options.h": {"command_line", "ros_planning"},
     "base/available_memory.h": {"mapping", "planners"},
     "base/child_process.h": {"simulation"},
     "base/cholesky.h": {"localization", "trials", "vision"},
@@ -115,7 +116,7 @@ LENT = {
     "trials/recorded_job.h": {"command_line"},
     "trials/trial_job.h": {"command_line"},
     "vehicle/commanded_velocity.h": {"ros_driving"},
-    "vehicle/description.h": {"following", "ros_driving", "ros_messages", "ros_planning", "ros_simulation"},
+    "vehicle/description.h": {"following", "planning", "ros_driving", "ros_messages", "ros_planning", "ros_simulation"},
     "vehicle/footprint.h": {"following", "planning", "ros_driving", "ros_planning"},
     "vehicle/map_obstacles.h": {"following", "simulation"},
     "vehicle/motion.h": {"path"},

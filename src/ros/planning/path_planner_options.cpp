@@ -1,19 +1,13 @@
 #include "ros/planning/path_planner_options.h"
 
 #include "grid_path_planner/base/options.h"
+#include "planning/vehicle_options.h"
 
 namespace grid_path_planner::nodes {
 
 using base::checkOptionLimits;
 using base::InputError;
 using planning::checkPlannerOptions;
-using vehicle::unite;
-
-namespace {
-
-constexpr double kTrackingMargin = 0.05;  // m, by which a vehicle may be off its path
-
-}  // namespace
 
 const std::vector<std::pair<const char*, GoalZ>>& choicesOf(GoalZ) {
   static const std::vector<std::pair<const char*, GoalZ>> choices = {{"message", GoalZ::MESSAGE},
@@ -22,13 +16,7 @@ const std::vector<std::pair<const char*, GoalZ>>& choicesOf(GoalZ) {
 }
 
 void takeFromVehicle(PathPlannerNodeOptions& options) {
-  if (!options.vehicle) return;
-  const vehicle::Description& vehicle = *options.vehicle;
-  planning::PlannerOptions& planner = options.planner;
-  uniteOutline("footprint", planner.footprint, vehicle);
-  unite("min_turning_radius", planner.min_turning_radius, 0.0, vehicle.least_turning_radius);
-  double& radius = planner.costmap.radius;
-  if (radius == 0.0) radius = outlineOf(vehicle).inscribedRadius() + kTrackingMargin;
+  if (options.vehicle) planning::takeFromVehicle(options.planner, *options.vehicle);
 }
 
 void checkPathPlannerNodeOptions(const PathPlannerNodeOptions& options) {
