@@ -17,7 +17,6 @@ import copy
 import math
 import os
 import sys
-import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import foreign_files
@@ -222,8 +221,7 @@ class Drives(ForeignTest):
     def test_actions(self):
         for name, row, action in (("navigate_path", DRIVER, "navigate_path"), ("local_planner", FLYER, "navigate_path"),
                                   ("go_to_pose", GO_TO, "move_base")):
-            node = self.node(name, row, space="/actions_of_" + name)
-            node.place(*PLACE)
+            node = self.node(name, row, space="/actions_of_" + name, at=PLACE)
             if not wait_until(lambda: self.statuses(node, action) is not None):
                 self.fail("%s publishes no status: %s" % (name, node.said()))
             with self.subTest(actions=name):
@@ -262,7 +260,7 @@ class Drives(ForeignTest):
             node.send(action + "/cancel", message_class("actionlib_msgs/GoalID")(stamp or no_time, identity))
         send(first)
         if not wait_until(lambda: active(first), ENOUGH):
-            return "the plain goal is not taken"
+            return "the plain goal is not taken: %r" % self.ended(node, action, first)
         if "cancelled" in expect:
             cancel(*{"cancelled_by_id": (first,), "cancelled_all": (), "cancelled_until_now": ("", self.now())}[make])
             ended = wait_until(lambda: self.ended(node, action, first), ENOUGH)
@@ -373,7 +371,7 @@ class Drives(ForeignTest):
         identity = self.next_id()
         node.frames = copy.deepcopy(row.get("frames", {"base_link": {"parent": "map", "x": PLACE[0], "y": PLACE[1]}}))
         goal = self.goal_of("navigate_path", identity)
-        time.sleep(0.5)  # the transforms of the row before are no jump of this one
+        node.settle()
 
         def moves():
             return [twist for twist in node.heard("cmd_vel") if not is_zero(twist)]

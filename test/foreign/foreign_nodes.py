@@ -33,8 +33,9 @@ def wait_until(holds, seconds=PATIENCE, send=lambda: None, every=0.5):
 class ForeignNode(RunningNode):
     """`frames`: child: {parent, x, y, z, quaternion, stamp}, which are sent 20 times a second."""
 
-    def __init__(self, name, row, log_folder, space=None, environment=None):
-        self.frames = {"base_link": {"parent": "map"}}
+    def __init__(self, name, row, log_folder, space=None, environment=None, at=(0.0, 0.0)):
+        self.place(*at)
+        self.transforms_sent = 0
         self.environment = environment
         self.marked = 0
         self.begun = None  # what the stamp `frozen` is
@@ -43,6 +44,7 @@ class ForeignNode(RunningNode):
     def transforms(self, stamp):
         message = message_class("tf2_msgs/TFMessage")()
         self.begun = self.begun or stamp
+        self.transforms_sent += 1
         for child, frame in list(self.frames.items()):
             x, y, z, w = frame.get("quaternion", (0.0, 0.0, 0.0, 1.0))
             at = self.begun if frame.get("stamp") == "frozen" else table.time_of(frame.get("stamp", "now"), stamp)
@@ -56,6 +58,11 @@ class ForeignNode(RunningNode):
     def place(self, x=0.0, y=0.0, others=None):
         """The vehicle in the map, and other frames."""
         self.frames = dict({"base_link": {"parent": "map", "x": x, "y": y}}, **(others or {}))
+
+    def settle(self):
+        """What was placed elsewhere is known there, and a drive that begins now sees no jump."""
+        sent = self.transforms_sent
+        wait_until(lambda: self.transforms_sent > sent + 10)
 
     def said(self, since=0):
         with open(self.log.name, errors="replace") as file:
