@@ -35,7 +35,8 @@ PLANNER = Row(inputs=MAPS, outputs={}, services={"~make_plan": "nav_msgs/GetPlan
               tf="listens", probe=None)
 DRIVER = Row(inputs=MAPS, outputs={"cmd_vel": "geometry_msgs/Twist"}, services={},
              actions={"navigate_path": "grid_path_planner/NavigatePath"},
-             arguments=["_no_progress_timeout:=0", "_lookahead:=8"], tf="listens", probe=None)
+             # Each row puts the vehicle elsewhere, which is no jump to end a drive for.
+             arguments=["_no_progress_timeout:=0", "_lookahead:=8", "_pose_jump:=0"], tf="listens", probe=None)
 LAYERED = {"projected_map": "nav_msgs/OccupancyGrid"}
 LAYERS = Row(inputs={"static_map": "nav_msgs/OccupancyGrid"}, outputs=LAYERED, services={}, actions={}, arguments=[],
              tf="listens", probe=None)

@@ -24,7 +24,6 @@ using base::Stopped;
 using base::StopSource;
 using base::StopToken;
 using path::measuresText;
-using path::Path;
 using path::writeWaypointFile;
 using planning::failedPlan;
 using planning::MapStore;
@@ -237,7 +236,7 @@ void PlanningServer::publish(const PlanningLane& lane, const Plan& plan,
     shown.footprint = Footprint::fromText("footprint", options.planner.footprint).corners();
   }
   publisher_.publishSearch(shown);
-  if (plan.found()) writeWaypoints(plan.waypoints);
+  if (plan.found()) writeWaypoints();
 }
 
 void PlanningServer::remember(const Plan& plan) {
@@ -247,11 +246,16 @@ void PlanningServer::remember(const Plan& plan) {
   });
 }
 
-void PlanningServer::writeWaypoints(const Path& waypoints) {
+// Both lanes write. Whichever comes last writes what lastAnswer() tells, so that the file agrees with it.
+void PlanningServer::writeWaypoints() {
   const std::string file = settings().options.waypoints_file;
   if (file.empty()) return;
+  const std::lock_guard<std::mutex> lock(writing_mutex_);
+  const std::shared_ptr<const Answered> answered = lastAnswer();
+  if (!answered->waypoints) return;
   try {
-    writeWaypointFile(files_.toWrite("waypoints_file", file, waypointFiles()), waypoints);
+    writeWaypointFile(files_.toWrite("waypoints_file", file, waypointFiles()),
+                      *answered->waypoints);
   } catch (const InputError& error) {
     ROS_ERROR_STREAM("The waypoints were not saved: " << error.what());
   }

@@ -151,7 +151,7 @@ class PlanningServer {
   void storeMap(const MapChange& change);
   void explain(const PlanningRequest& request, const planning::Plan& plan, unsigned number,
                const base::StopSource& stop);
-  void writeWaypoints(const path::Path& waypoints);
+  void writeWaypoints();
 
   NodeFiles files_;
   base::Committed<Settings> settings_;
@@ -164,6 +164,7 @@ class PlanningServer {
       time_of_lanes_.onJumpBack([this](double) { transforms_.clear(); });
   PlanPublisher publisher_;
   PlanRecorder recorder_;
+  std::mutex writing_mutex_;      // of the waypoints' file
   std::mutex explanation_mutex_;  // of the two below
   unsigned explanation_number_ = 0;
   ExplanationPublisher explanations_;

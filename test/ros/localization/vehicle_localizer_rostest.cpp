@@ -197,7 +197,9 @@ TEST_F(VehicleLocalizerTest, ADriveStandsWhileThePoseIsLostAndGoesOnAfterwards) 
   ros::Publisher paths = nh_.advertise<nav_msgs::Path>("path", 1);
   start({"_max_deviation:=0.3"});
   ASSERT_TRUE(hasStatus("OK"));
-  const Process navigate("navigate_path", {"_check_map:=false", "_no_progress_timeout:=0"});
+  // The stream moves whatever is commanded: how far it came while LOST is no jump to end the drive for.
+  const Process navigate("navigate_path",
+                         {"_check_map:=false", "_no_progress_timeout:=0", "_pose_jump:=0"});
   ASSERT_TRUE(waitFor([&] { return paths.getNumSubscribers() > 0 && commands.connected(); }));
   nav_msgs::Path path;
   path.header.frame_id = "map";
