@@ -40,7 +40,7 @@ grid::MapFileOptions readingOptionsFrom(const boost::program_options::variables_
 void describePlannerOptions(boost::program_options::options_description& known,
                             const planning::PlannerOptions& defaults = {});
 
-// The options given on the command line over those of --config over `defaults`. Throws InputError
+// The options given on the command line over those of --config over `defaults`, with what --vehicle says. Throws InputError
 // naming the option, in the file with its line.
 planning::PlannerOptions plannerOptionsFrom(const boost::program_options::variables_map& values,
                                             const planning::PlannerOptions& defaults = {});

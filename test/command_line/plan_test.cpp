@@ -235,7 +235,9 @@ TEST_F(Plan, TakesTheDescriptionOfTheVehicle) {
   EXPECT_EQ(planWith("radius: 1.6").code, 1);
   const std::string narrow = "outline: [[1.4, 1.2], [-1.4, 1.2], [-1.4, -1.2], [1.4, -1.2]]";
   EXPECT_EQ(planWith(narrow).code, 0) << planWith(narrow).printed;
-  EXPECT_TRUE(contains(planWith("radius: 1.4", {"--radius", "1"}).error, "radius"));
+  const std::string too_long = "outline: [[1.8, 1.2], [-1.8, 1.2], [-1.8, -1.2], [1.8, -1.2]]";
+  EXPECT_TRUE(contains(planWith(too_long).printed, "the footprint meets")) << "1.5 m to the wall";
+  EXPECT_TRUE(contains(planWith("radius: 1.4", {"--radius", "1"}).error, "radius is 1 m, less"));
   EXPECT_TRUE(contains(planWith("radios: 1.4").error, "robot.yaml:1: vehicle has no 'radios'"))
       << planWith("radios: 1.4").error;
 }
