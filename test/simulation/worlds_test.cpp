@@ -252,6 +252,21 @@ TEST(RescueCourse, TheGroundIsUnderAllOfIt) {
       ASSERT_TRUE(rescueCourse().nearest({x, y, 0.0}, 1e-3)) << x << ", " << y;
 }
 
+// Doors of 0.8 m: a disc of 0.38 m passes, one of 0.42 m does not.
+TEST(Office, EachRoomIsReachedFromTheCorridorByItsDoor) {
+  const World world = readWorld("worlds/office.sdf");
+  const GridGeometry geometry(600, 440, 0.025, {-0.5, -0.5, 0.0});
+  const Vector3d corridor(7.0, 5.0, 0.2);
+  const OccupancyGrid passable = test::occupiedAt(world, geometry, {0.2}, 0.38);
+  const OccupancyGrid closed = test::occupiedAt(world, geometry, {0.2}, 0.42);
+  for (const Vector3d& room :
+       {Vector3d(2.0, 3.2, 0.2), Vector3d(7.0, 2.0, 0.2), Vector3d(11.8, 2.3, 0.2),
+        Vector3d(2.0, 7.2, 0.2), Vector3d(4.6, 6.8, 0.2), Vector3d(11.0, 7.5, 0.2)}) {
+    EXPECT_EQ(route(passable, corridor, room).status, Status::FOUND) << room.transpose();
+    EXPECT_EQ(route(closed, corridor, room).status, Status::UNREACHABLE) << room.transpose();
+  }
+}
+
 TEST(Worlds, AreSmall) {
   std::uintmax_t bytes = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator("worlds"))

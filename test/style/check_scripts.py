@@ -16,7 +16,7 @@ def run(command):
 
 
 # What scripts make, and where it is committed.
-MADE = {"make_worlds": ("worlds", ("dexrov_site.sdf", "forest_maze.sdf", "panel_site.sdf", "meshes"))}
+MADE = {"make_worlds": ("worlds", ("dexrov_site.sdf", "forest_maze.sdf", "office.sdf", "panel_site.sdf", "meshes"))}
 
 
 def contents(folder, names):
