@@ -30,7 +30,7 @@ function(gpp_add_option_files)
     ${folder}/following/follower_options.cpp ${folder}/localization/filter_options.cpp
     ${folder}/layers/map_layers_options.cpp ${folder}/mapping/projection_options.cpp
     ${folder}/ros/input/input_rules.cpp ${folder}/ros/planning/path_planner_options.cpp
-    ${folder}/vision/marker_pose_options.cpp)
+    ${folder}/simulation/sensors/laser_options.cpp ${folder}/vision/marker_pose_options.cpp)
   set_target_properties(${target} PROPERTIES OUTPUT_NAME option_files
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})  # not beside the nodes: it is a tool of the build
   target_link_libraries(${target} PRIVATE ${PROJECT_NAME}_option_texts ${PROJECT_NAME}_planning)

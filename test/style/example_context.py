@@ -271,6 +271,9 @@ CONTEXT = {
     "dead_reckoning.h": """#include "grid_path_planner/simulation/vehicle.h"
         extern DeadReckoningOptions options; extern Vehicle vehicle;""",
     "decomposition.h": "extern const CostGrid& map;", "bound_choice.h": "extern const CostGrid& map;",
+    "laser_scanner.h": """#include <iostream>
+        #include "grid_path_planner/simulation/world.h"
+        extern const World& world; extern LaserOptions options; extern Vehicle vehicle;""",
     "depth_camera.h": "extern const World& world; extern DepthCameraOptions options;"
                       "extern Eigen::Isometry3d map_from_base; extern int row, column, frame_number;",
     "depth_camera_publisher.h": """#include "grid_path_planner/simulation/vehicle.h"

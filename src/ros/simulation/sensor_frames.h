@@ -13,6 +13,7 @@ struct SensorFrameNames {
   std::string dvl_altitude = "dvl_altitude_link";
   std::string pressure = "pressure_link";
   std::string usbl = "usbl_link";
+  std::string laser = "laser_link";
   std::string image_camera = "image_camera_optical_frame";
 };
 
@@ -25,6 +26,7 @@ void visitOptions(SensorFrameNames& o, Visitor&& visit) {
   visit("pressure_frame", o.pressure, base::OptionInfo{"Frame of the pressure sensor", ""});
   visit("usbl_frame", o.usbl,
         base::OptionInfo{"Frame of the transponder of the acoustic positioning", ""});
+  visit("laser_frame", o.laser, base::OptionInfo{"Frame of the laser scanner: x ahead", ""});
   visit("image_camera_frame", o.image_camera,
         base::OptionInfo{"Frame of the image camera: z ahead, y down", ""});
 }

@@ -10,6 +10,8 @@ using simulation::DvlOptions;
 using simulation::DvlReading;
 using simulation::DvlVelocity;
 using simulation::ImuReading;
+using simulation::LaserOptions;
+using simulation::LaserReading;
 using simulation::NavigationSensorOptions;
 using simulation::PressureOptions;
 using simulation::PressureReading;
@@ -64,7 +66,21 @@ std::vector<geometry_msgs::TransformStamped> sensorTransforms(
   }
   add(options.pressure, frames.pressure);
   add(options.usbl, frames.usbl);
+  add(options.laser, frames.laser);
   return transforms;
+}
+
+sensor_msgs::LaserScan scanMessage(const LaserReading& reading, const LaserOptions& options) {
+  sensor_msgs::LaserScan message;
+  const double first = angleMin(options), step = angleIncrement(options);
+  message.angle_min = static_cast<float>(first);
+  message.angle_increment = static_cast<float>(step);
+  message.angle_max = static_cast<float>(first + (options.rays - 1) * step);
+  message.scan_time = static_cast<float>(1.0 / options.rate);
+  message.range_min = static_cast<float>(options.range_min);
+  message.range_max = static_cast<float>(options.range_max);
+  message.ranges = reading.ranges;
+  return message;
 }
 
 sensor_msgs::Imu imuMessage(const ImuReading& reading) {

@@ -9,6 +9,7 @@
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Imu.h>
+#include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/Range.h>
 
 #include <string>
@@ -42,6 +43,10 @@ sensor_msgs::FluidPressure pressureMessage(const simulation::PressureReading& re
 // z of the pressure sensor in the map.
 geometry_msgs::PoseWithCovarianceStamped depthMessage(const simulation::PressureReading& reading,
                                                       const simulation::PressureOptions& options);
+
+// Without a time between its rays, which are of one instant.
+sensor_msgs::LaserScan scanMessage(const simulation::LaserReading& reading,
+                                   const simulation::LaserOptions& options);
 
 // The transponder's position in the map.
 geometry_msgs::PoseWithCovarianceStamped fixMessage(const simulation::UsblFix& fix);

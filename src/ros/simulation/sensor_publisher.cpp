@@ -51,6 +51,7 @@ void SensorPublisher::setOptions(const NavigationSensorOptions& options) {
   advertise<sensor_msgs::FluidPressure>(nh_, "pressure", options.pressure.enabled, pressure_);
   advertise<PoseWithCovarianceStamped>(nh_, "depth", options.pressure.enabled, depth_);
   advertise<PoseWithCovarianceStamped>(nh_, "usbl/pose", options.usbl.enabled, fix_);
+  advertise<sensor_msgs::LaserScan>(nh_, "scan", options.laser.enabled, scan_);
 }
 
 void SensorPublisher::advance(const simulation::VehicleState& state, std::int64_t time_ns) {
@@ -87,6 +88,9 @@ void SensorPublisher::publish(const SensorReadings& readings, const SensorFrameN
   }
   for (const simulation::UsblFix& fix : readings.usbl)
     send(fix_, fixMessage(fix), map_frame, stamp_of(fix.time_ns));
+  if (readings.laser)
+    send(scan_, scanMessage(*readings.laser, sensors_.options().laser), frames.laser,
+         stamp_of(readings.laser->time_ns));
 }
 
 }  // namespace grid_path_planner::nodes

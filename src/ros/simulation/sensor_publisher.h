@@ -11,6 +11,7 @@
 //   depth         geometry_msgs/PoseWithCovarianceStamped in map: z of pressure_link
 //   usbl/pose     geometry_msgs/PoseWithCovarianceStamped in map: position of usbl_link, stamped with the
 //                 time at which it was there, which is earlier
+//   scan          sensor_msgs/LaserScan, in laser_link
 //
 // Only sensors that are enabled have topics.
 #pragma once
@@ -60,7 +61,7 @@ class SensorPublisher {
   ros::NodeHandle nh_;
   simulation::NavigationSensors sensors_;
   std::deque<simulation::SensorReadings> readings_;  // not yet published
-  ros::Publisher imu_, twist_, altitude_, pressure_, depth_, fix_;
+  ros::Publisher imu_, twist_, altitude_, pressure_, depth_, fix_, scan_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -24,7 +24,8 @@ void checkFrames(const SimulatorOptions& o) {
   for (const std::string& name :
        {o.map_frame, o.odom_frame, o.base_frame, o.camera_frame, o.camera_optical_frame,
         o.sensor_frames.imu, o.sensor_frames.dvl, o.sensor_frames.dvl_altitude,
-        o.sensor_frames.pressure, o.sensor_frames.usbl, o.sensor_frames.image_camera}) {
+        o.sensor_frames.pressure, o.sensor_frames.usbl, o.sensor_frames.laser,
+        o.sensor_frames.image_camera}) {
     checkNetworkText("the name of a frame", name);
     if (name.empty()) throw InputError("the name of a frame must not be empty");
     if (!names.insert(name).second)

@@ -30,7 +30,9 @@ void checkNavigationSensorOptions(const NavigationSensorOptions& o, double time_
   checkRate("dvl", o.dvl, time_step);
   checkRate("pressure", o.pressure, time_step);
   checkRate("usbl", o.usbl, time_step);
+  checkRate("laser", o.laser, time_step);
   checkOrder("dvl_range_min", "dvl_range_max", o.dvl.range_min, o.dvl.range_max);
+  checkOrder("laser_range_min", "laser_range_max", o.laser.range_min, o.laser.range_max);
   checkOrder("usbl_outlier_min", "usbl_outlier_max", o.usbl.outlier_min, o.usbl.outlier_max);
 }
 

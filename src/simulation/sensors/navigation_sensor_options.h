@@ -6,6 +6,7 @@
 #include "grid_path_planner/base/options.h"
 #include "simulation/sensors/dvl_options.h"
 #include "simulation/sensors/imu_options.h"
+#include "simulation/sensors/laser_options.h"
 #include "simulation/sensors/pressure_options.h"
 #include "simulation/sensors/usbl_options.h"
 
@@ -16,6 +17,7 @@ struct NavigationSensorOptions {
   DvlOptions dvl;
   PressureOptions pressure;
   UsblOptions usbl;
+  LaserOptions laser;
 };
 
 template <class Visitor>
@@ -29,10 +31,11 @@ void visitOptions(NavigationSensorOptions& o, Visitor&& visit) {
   visitAs("dvl_", o.dvl);
   visitAs("pressure_", o.pressure);
   visitAs("usbl_", o.usbl);
+  visitAs("laser_", o.laser);
 }
 
-// Throws InputError naming the option for a value outside its limits, for a DVL's range_min
-// above range_max, outliers whose least distance is above the largest, and for a sensor that is enabled
+// Throws InputError naming the option for a value outside its limits, for a range_min of DVL or laser
+// above its range_max, outliers whose least distance is above the largest, and for a sensor that is enabled
 // and whose rate is above one in `time_step` seconds.
 void checkNavigationSensorOptions(const NavigationSensorOptions& options, double time_step);
 

@@ -71,11 +71,14 @@ NavigationSensors::NavigationSensors(const NavigationSensorOptions& options,
 void NavigationSensors::setOptions(const NavigationSensorOptions& options) {
   if (options.dvl.enabled && !world_)
     throw InputError("dvl_enabled needs a world: without one there is no bottom");
+  if (options.laser.enabled && !world_)
+    throw InputError("laser_enabled needs a world: without one there is nothing to see");
   options_ = options;
   renew(imu_, options.imu);
   if (world_) renew(dvl_, options.dvl, *world_);
   renew(pressure_, options.pressure);
   renew(usbl_, options.usbl);
+  if (world_) renew(laser_, options.laser, *world_);
 }
 
 SensorReadings NavigationSensors::advance(const VehicleState& state, std::int64_t time_ns) {
@@ -89,6 +92,7 @@ SensorReadings NavigationSensors::advance(const VehicleState& state, std::int64_
         readings.usbl.push_back(*left);
         readings.usbl.back().arrives_ns = fix.arrives_ns;
       }
+  if (laser_) readings.laser = laser_->measure(state, time_ns);
   return readings;
 }
 

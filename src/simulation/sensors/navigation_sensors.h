@@ -1,5 +1,5 @@
-// The navigation sensors of a simulated vehicle: inertial unit, Doppler velocity log, pressure sensor and
-// acoustic positioning, with the faults that a test does to them.
+// The navigation sensors of a simulated vehicle: inertial unit, Doppler velocity log, pressure sensor,
+// acoustic positioning and laser scanner, with the faults that a test does to them.
 //
 //   NavigationSensors sensors(options, world, readSensorFaults("faults.yaml"));
 //   vehicle.step();
@@ -19,6 +19,7 @@
 #include "grid_path_planner/simulation/world.h"
 #include "simulation/sensors/dvl.h"
 #include "simulation/sensors/imu.h"
+#include "simulation/sensors/laser_scanner.h"
 #include "simulation/sensors/navigation_sensor_options.h"
 #include "simulation/sensors/pressure_sensor.h"
 #include "simulation/sensors/sensor_faults.h"
@@ -32,13 +33,14 @@ struct SensorReadings {
   std::optional<DvlReading> dvl;
   std::optional<PressureReading> pressure;
   std::vector<UsblFix> usbl;
+  std::optional<LaserReading> laser;
 
-  bool empty() const { return !imu && !dvl && !pressure && usbl.empty(); }
+  bool empty() const { return !imu && !dvl && !pressure && usbl.empty() && !laser; }
 };
 
 class NavigationSensors {
  public:
-  // `world` may be null. Throws InputError for a DVL that is enabled without one.
+  // `world` may be null. Throws InputError for a DVL or a laser that is enabled without one.
   NavigationSensors(const NavigationSensorOptions& options, std::shared_ptr<const World> world,
                     const std::vector<SensorFault>& faults = {});
 
@@ -60,6 +62,7 @@ class NavigationSensors {
   std::optional<Dvl> dvl_;
   std::optional<PressureSensor> pressure_;
   std::optional<Usbl> usbl_;
+  std::optional<LaserScanner> laser_;  // without faults
   FaultySensor<ImuReading> imu_faults_;
   FaultySensor<DvlReading> dvl_faults_;
   FaultySensor<PressureReading> pressure_faults_;

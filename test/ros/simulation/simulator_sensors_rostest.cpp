@@ -8,6 +8,7 @@
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Imu.h>
+#include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/Range.h>
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/transform_listener.h>
@@ -30,15 +31,17 @@ using geometry_msgs::TwistWithCovarianceStamped;
 using nav_msgs::Odometry;
 using sensor_msgs::FluidPressure;
 using sensor_msgs::Imu;
+using sensor_msgs::LaserScan;
 using sensor_msgs::Range;
 using test::Latest;
 using test::Process;
 
 const std::vector<std::string> kAllSensors = {"_imu_enabled:=true", "_dvl_enabled:=true",
-                                              "_pressure_enabled:=true", "_usbl_enabled:=true"};
+                                              "_pressure_enabled:=true", "_usbl_enabled:=true",
+                                              "_laser_enabled:=true"};
 
-const std::string kSensorFrames[] = {"imu_link", "dvl_link", "dvl_altitude_link", "pressure_link",
-                                     "usbl_link"};
+const std::string kSensorFrames[] = {"imu_link",      "dvl_link",  "dvl_altitude_link",
+                                     "pressure_link", "usbl_link", "laser_link"};
 
 std::set<std::string> publishedTopics() {
   ros::master::V_TopicInfo topics;
@@ -125,6 +128,25 @@ TEST_F(SimulatorSensors, SpeakAtTheirRatesInTheirFramesWithTheirCovariances) {
   EXPECT_NEAR(depth.all()[0].pose.pose.position.z, 0.0, 0.12);
   EXPECT_NEAR(depth.all()[0].pose.covariance[14], std::pow(200.0 / (1025.0 * 9.80665), 2), 1e-9);
   EXPECT_EQ(depth.all()[0].pose.covariance[0], 1e6) << "x is not measured";
+}
+
+// The wall is 4 m ahead of base_link.
+TEST_F(SimulatorSensors, ALaserSeesTheWall) {
+  Latest<LaserScan> scans(nh_, "scan");
+  startAll({"_real_time_factor:=3", "_laser_x:=0.5", "_laser_rays:=181",
+            "_laser_field_of_view:=3.0", "_laser_noise:=0.001"});
+  ASSERT_TRUE(scans.waitForMoreThan(10));
+  expectPeriod(scans.all(), 0.1);
+  const LaserScan scan = scans.all().back();
+  EXPECT_EQ(scan.header.frame_id, "laser_link");
+  ASSERT_EQ(scan.ranges.size(), 181u);
+  EXPECT_NEAR(scan.angle_min, -1.5, 1e-6);
+  EXPECT_NEAR(scan.angle_max, 1.5, 1e-6);
+  EXPECT_NEAR(scan.angle_increment, 3.0 / 180, 1e-6);
+  EXPECT_NEAR(scan.ranges[90], 3.5, 0.01);
+  EXPECT_NEAR(scan.ranges[150], 3.5 / std::cos(1.0), 0.01);
+  EXPECT_TRUE(std::isinf(scan.ranges[0])) << "it would be 49 m";
+  EXPECT_TRUE(test::waitFor([&] { return knows("base_link", "laser_link"); }));
 }
 
 // Never a static one: tf would keep it for ever, and a bag of /tf alone would lack it.

@@ -26,7 +26,9 @@ std::shared_ptr<const World> seabed() {
 NavigationSensorOptions allEnabled() {
   NavigationSensorOptions options;
   options.imu.enabled = options.dvl.enabled = true;
-  options.pressure.enabled = options.usbl.enabled = true;
+  options.pressure.enabled = options.usbl.enabled = options.laser.enabled = true;
+  options.laser.mounting.pitch = 1.0;  // down at the seabed
+  options.laser.range_max = 100.0;
   return options;
 }
 
@@ -44,6 +46,7 @@ std::vector<double> recorded(const NavigationSensorOptions& options) {
     if (readings.dvl && readings.dvl->velocity) keep(readings.dvl->velocity->velocity);
     if (readings.pressure) numbers.push_back(readings.pressure->pressure);
     for (const UsblFix& fix : readings.usbl) keep(fix.position);
+    if (readings.laser) numbers.push_back(readings.laser->ranges[180]);
   });
   return numbers;
 }
@@ -100,11 +103,14 @@ TEST(NavigationSensorOptions, SenselessOnesAreRefusedByName) {
       << "a sensor that is off asks nothing of the time step";
 }
 
-TEST(NavigationSensors, ADvlWithoutAWorldIsRefusedAndWhatWasStays) {
+TEST(NavigationSensors, ADvlOrALaserWithoutAWorldIsRefusedAndWhatWasStays) {
   const auto refuses = [](const auto& action) {
     return contains(errorText(action), "needs a world");
   };
   EXPECT_TRUE(refuses([] { NavigationSensors(allEnabled(), nullptr); }));
+  NavigationSensorOptions with_laser;
+  with_laser.laser.enabled = true;
+  EXPECT_TRUE(refuses([&] { NavigationSensors(with_laser, nullptr); }));
   NavigationSensorOptions options;
   options.pressure.enabled = true;
   NavigationSensors sensors(options, nullptr);
@@ -124,8 +130,8 @@ TEST(NavigationSensors, AreOffByDefault) {
 TEST(NavigationSensors, TheSameSeedsGiveTheSameBits) {
   const auto first = recorded(allEnabled());
   EXPECT_EQ(first, recorded(allEnabled()));
-  // 2000 IMU readings but the first, 140 of the DVL, 200 pressures, 19 fixes.
-  EXPECT_NEAR(static_cast<double>(first.size()), 1999 * 6 + 140 * 3 + 200 + 19 * 3, 10.0);
+  // 2000 IMU readings but the first, 140 of the DVL, 200 pressures, 19 fixes, 200 scans.
+  EXPECT_NEAR(static_cast<double>(first.size()), 1999 * 6 + 140 * 3 + 200 + 19 * 3 + 200, 10.0);
 }
 
 TEST(NavigationSensors, ChangingOneLeavesTheOthersAsTheyAre) {
