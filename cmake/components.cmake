@@ -46,7 +46,7 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME planning)
 set(GPP_FOLDERS base grid costmap vehicle path planners planning layers)
 set(GPP_ROOMS ${GPP_FOLDERS})
 set(GPP_PLANNING_ROOMS ${GPP_FOLDERS})
-set(ros_rooms ros_guard ros_messages ros_input ros_planning ros_adapters ros_layers)
+set(ros_rooms ros_guard ros_messages ros_input ros_gate ros_planning ros_adapters ros_layers)
 set(GPP_NODES path_planner map_publisher map_layers)
 set(GPP_CONFIGURATIONS PathPlanner MapPublisher MapLayers MoveBasePlugin)
 set(GPP_CATKIN_EXPORTS actionlib actionlib_msgs dynamic_reconfigure geometry_msgs message_runtime nav_msgs

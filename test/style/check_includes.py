@@ -35,7 +35,7 @@ LENT = {
     "base/plain_text.h": {"ros_guard", "simulation"},
     "base/deflate.h": {"grid", "planners"},
     "base/rebuildable.h": {"planning"},
-    "base/seconds_since.h": {"mapping", "ros_guard", "ros_input", "ros_driving", "ros_layers", "ros_mapping", "ros_planning"},
+    "base/seconds_since.h": {"mapping", "ros_gate", "ros_guard", "ros_input", "ros_driving", "ros_layers", "ros_mapping", "ros_planning"},
     "base/shell_text.h": {"command_line", "flights", "study"},
     "base/utf8.h": {"study"},
     "base/zeroed_array.h": {"planners"},

@@ -222,7 +222,7 @@ CONTEXT = {
     "panel_learning.h": """extern PanelLearningOptions options; extern double seconds; extern Eigen::Isometry3d map_from_base;
         extern Eigen::Isometry3d base_from_camera; extern PoseEstimate pose;""",
     "seen_map.h": """extern SeenMap map; extern avoidance::Frame frame; extern Eigen::Vector3d position, goal;""",
-    "flight_hold.h": "extern double master_timeout;", "manager_shutdown.h": "void stopVehicle();",
+    "flight_hold.h": "#include \"ros/gate/command_gate.h\"\nextern const CommandGate gate;", "command_gate.h": "extern ros::NodeHandle nh; extern const base::BodyVelocity velocity; extern bool drives;", "manager_shutdown.h": "void stopVehicle();",
     "flight_job.h": "extern std::function<void(std::size_t)> progress;", "flight_commander.h": "extern ros::NodeHandle nh;",
     "flight_log.h": """extern std::string file; extern PilotOptions options; extern std::uint64_t limit;
         extern std::vector<Eigen::Vector3d> waypoints; extern PilotInput input; extern PilotAnswer answer;""",

@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "ros/guard/clock.h"
-#include "ros/guard/incoming/claimed_lengths.h"
-#include "ros/guard/master/system_state.h"
 #include "ros/messages/velocity_message.h"
 
 namespace grid_path_planner::nodes {
@@ -47,48 +45,59 @@ FlightCommander::Command finite(FlightCommander::Command command) {
 }  // namespace
 
 FlightCommander::FlightCommander(const ros::NodeHandle& nh, const LocalPlannerOptions& options,
-                                 FlightHold& hold)
-    : hold_(hold),
-      velocity_(ros::NodeHandle(nh).advertise<geometry_msgs::Twist>("cmd_vel", 10)),
-      setpoint_(
-          ros::NodeHandle(nh).advertise<geometry_msgs::TwistStamped>("setpoint_velocity", 10)) {
+                                 std::function<void(unsigned)> on_handover)
+    : gate_(nh, owner(std::move(on_handover))),
+      setpoint_(gate_.handle().advertise<geometry_msgs::TwistStamped>("setpoint_velocity", 10)) {
   use(options);
-  ros::NodeHandle own(nh);
-  own.setCallbackQueue(&thread_.queue());
-  const auto refused = [this] { ++refused_; };
-  stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); }, refused);
-  // Taken over and let go at once, as where both come late, is taken over.
-  manual_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      own, "manual_control", 10, [this](const std_msgs::Bool& message) { onManual(message); },
-      refused);
-  waitForPublishers(stop_subscriber_);
-  thread_.start(options.control_rate, options.realtime_priority);
+  gate_.start({options.control_rate, options.realtime_priority});
+}
+
+FlightCommander::~FlightCommander() {
+  finish();
+  gate_.thread().stop();
+}
+
+CommandGate::Owner FlightCommander::owner(std::function<void(unsigned)> on_handover) {
+  CommandGate::Owner owner;
+  owner.tick = [this] { tick(); };
+  owner.time_went_back = [this](double) { command_.velocity = {}; };
+  owner.drives = [this] { return hold_.flies(); };
+  owner.on_handover = std::move(on_handover);
+  owner.on_manual = [this](bool commands) { hold_.manual(commands); };
+  owner.on_refused = [this] { ++refused_; };
+  return owner;
+}
+
+// In the thread, so that no joystick takes over meanwhile.
+bool FlightCommander::begin(unsigned handovers) {
+  return gate_.thread().ask([this, handovers] {
+    hold_.begin(gate_.isManual());
+    return handovers == gate_.handovers();
+  });
+}
+
+std::string FlightCommander::hold() const {
+  if (const auto why = gate_.problem(master_timeout_)) return *why;
+  if (gate_.isManual()) return "the joystick commands: paused until ~resume";
+  return hold_.paused() ? "paused until ~resume" : "";
 }
 
 void FlightCommander::command(const Command& command) {
-  thread_.post([this, command, now = Clock::now()] { take(command, now); });
+  gate_.thread().post([this, command, now = Clock::now()] { take(command, now); });
 }
 
 void FlightCommander::setOptions(const LocalPlannerOptions& options) {
-  thread_.ask([this, &options] {
+  gate_.thread().ask([this, &options] {
     use(options);
-    thread_.setRate(options.control_rate);
-    thread_.setPriority(options.realtime_priority);
+    gate_.setSchedule({options.control_rate, options.realtime_priority});
   });
 }
 
 void FlightCommander::finish() {
-  bool sent = false;
-  thread_.askAtLast([&] {
-    finished_ = true;
-    if (!flies_) return;
-    send({});
+  gate_.finish([this] {
+    if (flies_) send({});
     flies_ = false;
-    sent = true;
   });
-  if (sent && velocity_.numberOfListeners() + setpoint_.numberOfListeners() > 0)
-    ros::WallDuration(0.1).sleep();  // what a connection did not take is sent by roscpp's thread
 }
 
 void FlightCommander::use(const LocalPlannerOptions& options) {
@@ -103,48 +112,21 @@ void FlightCommander::use(const LocalPlannerOptions& options) {
   most_held_ = seconds(std::max(options.pilot.frame_period, kPeriodsHeld / options.control_rate));
 }
 
-BodyVelocity FlightCommander::sent() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return sent_;
-}
-
-void FlightCommander::keep(const BodyVelocity& sent) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  sent_ = sent;
-}
-
 void FlightCommander::take(const Command& command, Clock::time_point handed_over) {
   command_ = finite(command);
   handed_over_ = handed_over;
   brakes_since_.reset();
   flies_ = true;
-  thread_.restartPeriod();
-  thread_.tick();
-}
-
-void FlightCommander::onStop(const std_msgs::Bool& message) {
-  hold_.stop(message.data);
-  thread_.tick();
-}
-
-void FlightCommander::onManual(const std_msgs::Bool& message) {
-  if (!finished_) hold_.manual(message.data);
+  gate_.thread().restartPeriod();
+  gate_.thread().tick();
 }
 
 // The last command is given again until it was sent.
 void FlightCommander::tick() {
-  if (finished_) return;
-  sendCommand();
-  if (command_.is_last) flies_ = false;
-}
-
-void FlightCommander::sendCommand() {
-  if (!hold_.why(master_timeout_).empty()) command_.velocity = {};
-  if (hold_.stopped()) return send({});
-  if (hold_.isManual()) return keep({});
-  if (!flies_) return;
+  if (!hold().empty()) command_.velocity = {};
   if (!brakes_since_ && !command_.velocity.isZero() && isOverdue()) beginToBrake();
-  send(due());
+  send(flies_ ? due() : BodyVelocity{});
+  if (command_.is_last) flies_ = false;
 }
 
 bool FlightCommander::isOverdue() const {
@@ -171,13 +153,13 @@ BodyVelocity FlightCommander::due() const {
 }
 
 void FlightCommander::send(const BodyVelocity& velocity) {
-  keep(velocity);
-  velocity_.publish(velocityToMessage(velocity));
-  const Eigen::Vector3d in_map = base::inMap(velocity, command_.yaw);
+  const auto sent = gate_.send(velocity, flies_);
+  if (!sent) return;
+  const Eigen::Vector3d in_map = base::inMap(*sent, command_.yaw);
   geometry_msgs::TwistStamped stamped;
   stamped.header.frame_id = map_frame_;
   stamped.header.stamp = ros::Time::now();
-  stamped.twist = velocityToMessage({in_map.x(), in_map.y(), velocity.heave, velocity.yaw_rate});
+  stamped.twist = velocityToMessage({in_map.x(), in_map.y(), sent->heave, sent->yaw_rate});
   setpoint_.publish(stamped);
 }
 

@@ -1,7 +1,7 @@
 // What local_planner commands: cmd_vel and setpoint_velocity, from a thread of their own.
 //
-//   FlightHold hold([](unsigned handovers) {});
-//   FlightCommander commander(nh, LocalPlannerOptions(), hold);
+//   FlightCommander commander(nh, LocalPlannerOptions(), [](unsigned handovers) {});
+//   commander.begin(0);                                   // with every route
 //   commander.command({{0.5, 0.0, 0.0, 0.0}, {0.4, 0.0, 0.0, 0.0}, 0.0, ros::Time::now(), 0.2});   // with every answer
 //
 // Clouds, plans, logs, views and services have other threads, however long they take. A command is sent as soon
@@ -10,27 +10,23 @@
 // time, the vehicle is braked to a stand by max_acceleration on each axis, without a turn, from the velocity that it had,
 // as it may have changed since, or from the command where that is less. That is the braking for which the pilot has seen
 // to room (avoidance/steering/braking.h); a plan that comes meanwhile finds the vehicle a little slower. Zeros take
-// the command's place where ROS time went back and where the hold says so, and last until the next. While `stop` is
-// true there are zeros only, and while a joystick commands nothing. A command with a number that is none is a zero.
-// The thread logs nothing, reads and publishes nothing else and takes no lock but for values that are copied; how it is
-// scheduled: control_thread.h.
+// the command's place where ROS time went back and where the flight is held, and last until the next. A command with a
+// number that is none is a zero. What is sent, and what holds the vehicle whatever is flown: command_gate.h.
 #pragma once
 
 #include <ros/node_handle.h>
-#include <ros/subscriber.h>
-#include <std_msgs/Bool.h>
 
 #include <atomic>
 #include <chrono>
-#include <mutex>
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "grid_path_planner/base/body_velocity.h"
 #include "ros/avoidance/flight_hold.h"
 #include "ros/avoidance/local_planner_options.h"
+#include "ros/gate/command_gate.h"
 #include "ros/guard/outgoing/direct_publisher.h"
-#include "ros/guard/scheduling/control_thread.h"
 
 namespace grid_path_planner::nodes {
 
@@ -45,64 +41,62 @@ class FlightCommander {
     bool is_last = false;              // the flight has ended: nothing follows
   };
 
-  // `hold` is told `stop` and `manual_control`; it outlives this.
-  FlightCommander(const ros::NodeHandle& nh, const LocalPlannerOptions& options, FlightHold& hold);
-  ~FlightCommander() { thread_.stop(); }
+  // `on_handover` is called in the thread, as CommandGate says.
+  FlightCommander(const ros::NodeHandle& nh, const LocalPlannerOptions& options,
+                  std::function<void(unsigned handovers)> on_handover);
+  // A zero, as finish() says.
+  ~FlightCommander();
 
   // Thread-safe, all of these.
+  // A flight begins that was given when on_handover had said `handovers`, 0 before it had. Returns whether nobody has
+  // taken the vehicle, or let go of it, since.
+  bool begin(unsigned handovers);
+  // Whether a joystick has paused the flight since the last call. With every plan.
+  bool notice(bool flies) { return hold_.notice(flies, gate_.isManual()); }
+  FlightHold::Answer pause(bool flies) { return hold_.pause(flies); }
+  FlightHold::Answer resume(bool flies) { return hold_.resume(flies, gate_.isManual()); }
+  bool endPause() { return hold_.endPause(); }
+  // Why nothing is flown now, in a sentence; empty: it may be.
+  std::string hold() const;
   void command(const Command& command);
   void setOptions(const LocalPlannerOptions& options);  // precondition: checked
   // A zero ends the flight of a node that ends; no command is sent after this. Waits until it is. To be called
   // before anything that asks the master, which may not answer.
   void finish();
 
-  // How the thread is scheduled, in words.
-  std::string scheduling() const { return thread_.scheduling(); }
+  const CommandGate& gate() const { return gate_; }
   // How many motions were braked for want of a newer command.
   unsigned overdue() const { return overdue_; }
   // Messages on stop and manual_control whose bytes were none of it.
   unsigned refused() const { return refused_; }
-  // The velocity that was sent last; none while a joystick commands.
-  base::BodyVelocity sent() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  CommandGate::Owner owner(std::function<void(unsigned)> on_handover);
   // In the thread:
   void take(const Command& command, Clock::time_point handed_over);
   void use(const LocalPlannerOptions& options);
-  void onStop(const std_msgs::Bool& message);
-  void onManual(const std_msgs::Bool& message);
   void tick();
-  void sendCommand();
   void beginToBrake();
   bool isOverdue() const;
   base::BodyVelocity due() const;
   void send(const base::BodyVelocity& velocity);
-  void keep(const base::BodyVelocity& sent);
 
-  FlightHold& hold_;
+  FlightHold hold_;
   std::string map_frame_;
-  double master_timeout_ = 0.0;  // s
+  std::atomic<double> master_timeout_{0.0};  // s
   Clock::duration most_held_{}, period_{};
   double max_acceleration_ = 0.0, frame_period_ = 0.0;  // m/s^2, s
   Command command_;
   Clock::time_point handed_over_;
   std::optional<Clock::time_point> brakes_since_;
   bool flies_ = false;
-  bool finished_ = false;
   std::atomic<unsigned> overdue_{0};
   std::atomic<unsigned> refused_{0};
-  mutable std::mutex mutex_;  // of sent_
-  base::BodyVelocity sent_;
 
-  DirectPublisher velocity_, setpoint_;
-  ControlThread thread_{[this] { tick(); },
-                        [this] {
-                          if (flies_) send({});
-                        },
-                        [this](double) { command_.velocity = {}; }};
-  ros::Subscriber stop_subscriber_, manual_subscriber_;
+  CommandGate gate_;
+  DirectPublisher setpoint_;
 };
 
 }  // namespace grid_path_planner::nodes

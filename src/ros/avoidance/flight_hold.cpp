@@ -2,47 +2,25 @@
 
 #include <utility>
 
-#include "ros/guard/master/master_diagnostics.h"
-
 namespace grid_path_planner::nodes {
-namespace {
 
-// By the wall clock.
-constexpr std::chrono::milliseconds kClockStands(500);
-
-}  // namespace
-
-FlightHold::FlightHold(std::function<void(unsigned)> on_handover)
-    : on_handover_(std::move(on_handover)) {}
-
-void FlightHold::stop(bool is) {
+// Whoever commands may let the vehicle go before the next notice().
+void FlightHold::begin(bool is_manual) {
   const Lock lock(mutex_);
-  stopped_ = is;
+  flies_ = true;
+  paused_ = paused_ || is_manual;
 }
 
 void FlightHold::manual(bool is) {
-  std::optional<unsigned> handovers;
-  {
-    const Lock lock(mutex_);
-    if (joystick_.hear(is)) handovers = handOver();
-    paused_ = paused_ || (is && flies_);
-  }
-  if (handovers) on_handover_(*handovers);
-}
-
-// None of a flight: it is paused, and resumed by hand.
-std::optional<unsigned> FlightHold::handOver() {
-  return flies_ ? std::nullopt : std::optional(++handovers_);
-}
-
-bool FlightHold::stopped() const {
   const Lock lock(mutex_);
-  return stopped_;
+  paused_ = paused_ || (is && flies_);
 }
 
-bool FlightHold::isManual() const {
+bool FlightHold::notice(bool flies, bool is_manual) {
   const Lock lock(mutex_);
-  return joystick_.commands();
+  flies_ = flies;
+  paused_ = paused_ || (flies && is_manual);
+  return !std::exchange(noticed_, paused_) && paused_;
 }
 
 FlightHold::Answer FlightHold::pause(bool flies) {
@@ -53,9 +31,9 @@ FlightHold::Answer FlightHold::pause(bool flies) {
                       : "nothing is flown: the next flight waits until it is resumed"};
 }
 
-FlightHold::Answer FlightHold::resume(bool flies) {
+FlightHold::Answer FlightHold::resume(bool flies, bool is_manual) {
   const Lock lock(mutex_);
-  if (joystick_.commands()) return {false, "the joystick commands: let it go first"};
+  if (is_manual) return {false, "the joystick commands: let it go first"};
   noticed_ = false;
   if (std::exchange(paused_, false))
     return {true, flies ? "resumed" : "resumed: the next flight is flown"};
@@ -68,42 +46,14 @@ bool FlightHold::endPause() {
   return std::exchange(paused_, false);
 }
 
-bool FlightHold::begin(unsigned handovers) {
+bool FlightHold::flies() const {
   const Lock lock(mutex_);
-  flies_ = true;
-  paused_ = paused_ || joystick_.commands();  // who may let it go before the next notice()
-  return handovers == handovers_;
+  return flies_;
 }
 
-bool FlightHold::notice(const ros::Time& now, bool flies) {
-  bool yields = false;
-  std::optional<unsigned> handovers;
-  {
-    const Lock lock(mutex_);
-    if (std::exchange(now_, now) != now) moved_ = Clock::now();
-    flies_ = flies;
-    if (joystick_.expire()) handovers = handOver();
-    paused_ = paused_ || (flies && joystick_.commands());
-    yields = !std::exchange(noticed_, paused_) && paused_;
-  }
-  if (handovers) on_handover_(*handovers);
-  return yields;
-}
-
-std::string FlightHold::why(double master_timeout) const {
+bool FlightHold::paused() const {
   const Lock lock(mutex_);
-  if (stopped_) return "stopped by the topic stop";
-  if (joystick_.commands()) return "the joystick commands: paused until ~resume";
-  if (paused_) return "paused until ~resume";
-  if (Clock::now() - moved_ > kClockStands) return "ROS time stands still: no /clock comes";
-  if (master_timeout > 0.0 && master_->silence() > master_timeout)
-    return "the ROS master has not answered for longer than master_timeout";
-  return "";
-}
-
-void FlightHold::diagnoseMaster(double master_timeout,
-                                diagnostic_updater::DiagnosticStatusWrapper& status) const {
-  nodes::diagnoseMaster(master_->silence(), master_timeout, status);
+  return paused_;
 }
 
 }  // namespace grid_path_planner::nodes

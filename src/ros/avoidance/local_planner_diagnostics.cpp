@@ -1,5 +1,6 @@
 // What local_planner says in /diagnostics.
 #include "ros/avoidance/local_planner_node.h"
+#include "ros/guard/master/master_diagnostics.h"
 #include "ros/guard/scheduling/guarded_timer.h"
 
 namespace grid_path_planner::nodes {
@@ -33,8 +34,8 @@ void LocalPlannerNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   clouds_.addTo(status);
   status.add("braked for want of a newer plan", commander_.overdue());
   status.add("refused messages on stop and manual_control", commander_.refused());
-  status.add("scheduling of commands", commander_.scheduling());
-  hold_.diagnoseMaster(options_.master_timeout, status);
+  status.add("scheduling of commands", commander_.gate().scheduling());
+  diagnoseMaster(commander_.gate().masterSilence(), options_.master_timeout, status);
 }
 
 }  // namespace grid_path_planner::nodes

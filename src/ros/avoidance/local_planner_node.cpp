@@ -77,8 +77,7 @@ LocalPlannerNode::LocalPlannerNode(ros::NodeHandle& nh, ros::NodeHandle& private
       clouds_(nh_, options_, transforms_),
       publisher_(nh_),
       views_(nh_),
-      hold_([this](unsigned handovers) { noteHandover(handovers); }),
-      commander_(nh_, options_, hold_),
+      commander_(nh_, options_, [this](unsigned handovers) { noteHandover(handovers); }),
       diagnostics_(nh, private_nh, private_nh.getNamespace()) {
   action_ = std::make_unique<FlightAction>(nh_, files, actionCallbacks());
   commands_.refuseSimultaneous();
@@ -177,8 +176,8 @@ void LocalPlannerNode::offerServices(ros::NodeHandle& private_nh) {
           return true;
         }));
   };
-  offer("pause", [this] { return hold_.pause(hasFlight()); });
-  offer("resume", [this] { return hold_.resume(hasFlight()); });
+  offer("pause", [this] { return commander_.pause(hasFlight()); });
+  offer("resume", [this] { return commander_.resume(hasFlight()); });
   offer("cancel", [this] { return cancelByHand(); });
   offer("explain", [this] { return Answer{true, pilot_.pilot().explain()}; });
 }
@@ -190,7 +189,7 @@ FlightHold::Answer LocalPlannerNode::cancelByHand() {
   const bool was_read = action_->cancelReading("cancelled by ~cancel while its file was read");
   if (flies_) pilot_.cancel("asked for by ~cancel");
   const bool was_paused =
-      hold_.endPause();  // last: what was not cancelled, for want of memory, stays paused
+      commander_.endPause();  // last: what was not cancelled, for want of memory, stays paused
   if (flies_) return {true, "cancelled"};
   if (was_read) return {true, "cancelled while its file was read"};
   if (was_paused) return {true, "nothing is flown, and the next flight does not wait any more"};
@@ -291,13 +290,13 @@ void LocalPlannerNode::fly(const path::Path& path, bool along, unsigned handover
   map_.dropPlan();
   publisher_.beginFlight();
   flies_ = true;
-  if (!hold_.begin(handovers)) pilot_.cancel(kTakenOver);
+  if (!commander_.begin(handovers)) pilot_.cancel(kTakenOver);
 }
 
 // As measured; without odometry, or with one that is not finite, that commanded last.
 BodyVelocity LocalPlannerNode::velocityAt(const ros::Time& now) const {
   const auto measured = odometry_ ? measuredVelocity(*odometry_, now, kOdometryAge) : std::nullopt;
-  return measured ? *measured : commander_.sent();
+  return measured ? *measured : commander_.gate().sent();
 }
 
 PilotInput LocalPlannerNode::input(const ros::Time& now) {
@@ -313,7 +312,7 @@ PilotInput LocalPlannerNode::input(const ros::Time& now) {
   } catch (const TransformError& error) {
     input.pose_problem = error.what();
   }
-  input.hold = hold_.why(options_.master_timeout);
+  input.hold = commander_.hold();
   takeFrames(input);
   good_for_ = std::min(pose_for, options_.pilot.cloud_timeout - clouds_.age(now));
   return input;
@@ -334,7 +333,7 @@ void LocalPlannerNode::control() {
 }
 
 void LocalPlannerNode::tick(const ros::Time& now) {
-  const bool yields = hold_.notice(now, hasFlight());
+  const bool yields = commander_.notice(hasFlight());
   const PilotInput given = input(now);
   answer_ = pilot_.update(given);
   const bool ended = answer_.status == PilotStatus::ARRIVED ||
@@ -361,7 +360,8 @@ void LocalPlannerNode::publish(const ros::Time& now) {
   publisher_.status(answer_, map, now);
   if (answer_.new_path) publisher_.path(pilot_.pilot(), map, now);
   if (!frames_.empty()) views_.show({pilot_.pilot(), answer_, at_, map, base, now});
-  if (hold_.stopped() || (flies_ && !hold_.isManual()))
+  const CommandGate& gate = commander_.gate();
+  if (gate.stopped() || (flies_ && !gate.isManual()))
     publisher_.trajectory(pilot_.pilot(), answer_, at_, map, base, now);
 }
 

@@ -136,13 +136,12 @@ class LocalPlannerNode {
   FlightPublisher publisher_;
   FlightViews views_;
   std::optional<nav_msgs::Odometry> odometry_;
-  FlightHold hold_;
   FlightCommander commander_;
   bool had_time_ = false;
   avoidance::VehiclePose at_;
   double good_for_ = 0.0;         // s from the newest plan, until clouds or pose are too old
   FinishedGoals finished_goals_;  // of the topic `path`
-  unsigned handovers_ = 0;        // of the hold, as this queue has heard
+  unsigned handovers_ = 0;        // of the gate, as this queue has heard
   bool flies_ = false;            // there is a route, and cmd_vel is published
 
   ros::Publisher cancelled_publisher_;

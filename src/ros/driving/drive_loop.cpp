@@ -11,8 +11,6 @@
 #include "grid_path_planner/ros/conversions.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
 #include "ros/guard/incoming/claimed_lengths.h"
-#include "ros/guard/master/system_state.h"
-#include "ros/messages/velocity_message.h"
 
 namespace grid_path_planner::nodes {
 
@@ -60,56 +58,55 @@ DriveLoop::DriveLoop(const ros::NodeHandle& nh, const NavigatePathOptions& optio
       transforms_(transforms),
       callbacks_(std::move(callbacks)),
       follower_(options.follower, options.vehicle ? &*options.vehicle : nullptr),
-      gate_(options.vehicle ? &*options.vehicle : nullptr),
-      velocity_publisher_(ros::NodeHandle(nh).advertise<geometry_msgs::Twist>("cmd_vel", 10)) {
-  ros::NodeHandle own(nh);
-  own.setCallbackQueue(&thread_.queue());
-  const auto refused = [this] { noteRefused(); };
-  // Taken over and let go at once, as where both come late, is taken over.
-  manual_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      own, "manual_control", 10, [this](const std_msgs::Bool& message) { onManual(message); },
-      refused);
-  stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      own, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); }, refused);
+      motions_(options.vehicle ? &*options.vehicle : nullptr),
+      gate_(nh, owner()) {
   localization_subscriber_ = subscribeChecked<std_msgs::String>(
-      own, "localization_status", 10,
-      [this](const std_msgs::String& message) { onLocalization(message); }, refused);
-  waitForPublishers(stop_subscriber_);
-  thread_.start(options_.control_rate, options_.realtime_priority);
+      gate_.handle(), "localization_status", 10,
+      [this](const std_msgs::String& message) { onLocalization(message); },
+      [this] { noteRefused(); });
+  gate_.start({options_.control_rate, options_.realtime_priority});
 }
 
 DriveLoop::~DriveLoop() {
   finish();
-  thread_.stop();
+  gate_.thread().stop();
+}
+
+CommandGate::Owner DriveLoop::owner() {
+  CommandGate::Owner owner;
+  owner.tick = [this] { tick(); };
+  owner.give_up = [this] { follower_.abandon("the control loop failed: " + currentErrorText()); };
+  owner.time_went_back = [this](double seconds) { timeWentBack(seconds); };
+  owner.drives = [this] { return follower_.active(); };
+  owner.on_handover = callbacks_.on_handover;
+  owner.on_refused = [this] { noteRefused(); };
+  return owner;
 }
 
 void DriveLoop::finish() {
-  thread_.askAtLast([this] {
+  gate_.finish([this] {
     follower_.cancel("navigate_path ends");
-    finished_ = true;
-    tick();  // what it throws has it done again: the last zero is sent
+    report(ros::Time::isValid() ? ros::Time::now() : ros::Time());
   });
-  if (numberOfListeners() > 0)
-    ros::WallDuration(0.1).sleep();  // what a connection did not take is sent by roscpp's thread
 }
 
 unsigned DriveLoop::start(const Path& path, Join join, unsigned handovers) {
-  return thread_.ask([this, &path, join, handovers] {
-    if (finished_) throw base::InputError("navigate_path ends");
+  return gate_.thread().ask([this, &path, join, handovers] {
+    if (gate_.finished()) throw base::InputError("navigate_path ends");
     follower_.start(path, join);
-    if (handovers != handovers_) follower_.abandon(kTakenOver);
+    if (handovers != gate_.handovers()) follower_.abandon(kTakenOver);
     reported_waypoint_ = -1;
     return ++drive_;
   });
 }
 
 PathFollower::Answer DriveLoop::pause() {
-  return thread_.ask([this] { return follower_.pause(); });
+  return gate_.thread().ask([this] { return follower_.pause(); });
 }
 
 PathFollower::Answer DriveLoop::resume() {
-  return thread_.ask([this] {
-    if (joystick_.commands())
+  return gate_.thread().ask([this] {
+    if (gate_.isManual())
       return PathFollower::Answer{false, "the joystick commands: let it go first"};
     const bool granted = holds_.localization.grant(holds_.now().toSec(), options_.degraded);
     const PathFollower::Answer answer = follower_.resume();
@@ -119,33 +116,32 @@ PathFollower::Answer DriveLoop::resume() {
 }
 
 PathFollower::Answer DriveLoop::cancel(const std::string& reason) {
-  return thread_.ask([this, &reason] { return follower_.cancel(reason); });
+  return gate_.thread().ask([this, &reason] { return follower_.cancel(reason); });
 }
 
 void DriveLoop::abandon(const std::string& reason) {
-  thread_.ask([this, &reason] { follower_.abandon(reason); });
+  gate_.thread().ask([this, &reason] { follower_.abandon(reason); });
 }
 
 void DriveLoop::setOptions(const NavigatePathOptions& options) {
-  thread_.ask([this, &options] {
+  gate_.thread().ask([this, &options] {
     follower_.setOptions(options.follower);
     options_ = options;
-    thread_.setRate(options.control_rate);
-    thread_.setPriority(options.realtime_priority);
+    gate_.setSchedule({options.control_rate, options.realtime_priority});
     footprint_ = Footprint::fromText("check_footprint", options.check_footprint);
   });
 }
 
 DriveStanding DriveLoop::standing() {
-  return thread_.ask([this] { return standingNow(); });
+  return gate_.thread().ask([this] { return standingNow(); });
 }
 
 void DriveLoop::setMap(const MapLiveness& life) {
-  thread_.post([this, life] { holds_.setMap(life); });
+  gate_.thread().post([this, life] { holds_.setMap(life); });
 }
 
 void DriveLoop::setSpeedLimits(const SpeedLimits& limits) {
-  thread_.post([this, limits] { holds_.limits = limits; });
+  gate_.thread().post([this, limits] { holds_.limits = limits; });
 }
 
 std::vector<DriveReport> DriveLoop::takeReports() {
@@ -154,15 +150,9 @@ std::vector<DriveReport> DriveLoop::takeReports() {
   return std::exchange(reports_, {});
 }
 
-// In a catch block.
-void DriveLoop::giveUpTick() {
-  publish({});  // before anything else that wants memory
-  follower_.abandon("the control loop failed: " + currentErrorText());
-}
-
 void DriveLoop::tick() {
   if (!ros::Time::isValid()) {
-    publish({});
+    send({});
     report({});
     return;
   }
@@ -180,22 +170,27 @@ void DriveLoop::timeWentBack(double seconds) {
   const ros::Time now = ros::Time::now();
   FollowInput without_pose;
   without_pose.time = now.toSec();
-  publish(follower_.update(without_pose));
+  send(follower_.update(without_pose));
   report(now);
 }
 
 void DriveLoop::follow(const ros::Time& now) {
   FollowInput input;
   input.time = now.toSec();
-  input.hold = holds_.problem(options_, stop_subscriber_.getTopic()).value_or("");
-  gate_.tick(input.time, 1.0 / options_.control_rate);
+  input.hold = whyHeld();
+  motions_.tick(input.time, 1.0 / options_.control_rate);
   if (!follower_.path().empty() && input.hold.empty()) findVehicle(input);
-  if (gate_.checks() && options_.check_map && input.pose) checkMotions(input);
+  if (motions_.checks() && options_.check_map && input.pose) checkMotions(input);
   if (options_.check_map || holds_.limits.grid)
     input.check = [this](const std::vector<Eigen::Vector3d>& ahead) { return whyNotFree(ahead); };
   if (holds_.limits.grid || holds_.localization.speedShare(options_.degraded) < 1.0)
     input.speed = [this](const std::vector<Eigen::Vector3d>& ahead) { return allowedSpeed(ahead); };
-  publish(follower_.update(input));
+  send(follower_.update(input));
+}
+
+std::string DriveLoop::whyHeld() const {
+  if (const auto why = gate_.problem(options_.master_timeout)) return *why;
+  return holds_.problem(options_).value_or("");
 }
 
 void DriveLoop::findVehicle(FollowInput& input) const {
@@ -214,7 +209,8 @@ void DriveLoop::checkMotions(FollowInput& input) const {
     const Placed placed =
         transforms_.placeVehicle({frameInMap(holds_.map.map.frame_id, options_.map_frame),
                                   options_.tf_timeout, Moving::WITH_VEHICLE, options_.base_frame});
-    input.motion = gate_.check(placed.level(), placed.age, *holds_.map.map.grid, options_.limits);
+    input.motion =
+        motions_.check(placed.level(), placed.age, *holds_.map.map.grid, options_.limits);
   } catch (const TransformError& error) {
     input.motion = [what = std::string(error.what())](const BodyVelocity&) { return what; };
   }
@@ -255,21 +251,6 @@ double DriveLoop::allowedSpeed(const std::vector<Eigen::Vector3d>& ahead) const 
   }
 }
 
-void DriveLoop::onManual(const std_msgs::Bool& message) {
-  if (!joystick_.hear(message.data)) return;
-  noteHandover();
-  thread_.tick();
-}
-
-// A drive that is paused is resumed by hand.
-void DriveLoop::noteHandover() {
-  if (!follower_.active()) callbacks_.on_handover(++handovers_);
-}
-
-void DriveLoop::onStop(const std_msgs::Bool& message) {
-  if (std::exchange(holds_.stopped, message.data) != message.data) thread_.tick();
-}
-
 void DriveLoop::onLocalization(const std_msgs::String& message) {
   if (holds_.localization.hear(message.data, holds_.now().toSec())) return;
   DriveReport report;
@@ -291,11 +272,7 @@ void DriveLoop::noteRefused() {
 
 // Also where a drive begins meanwhile; a pose that was held would be returned to.
 void DriveLoop::yieldToJoystick() {
-  if (joystick_.expire()) {
-    silent_ = false;  // whose node was killed has sent no zero
-    noteHandover();
-  }
-  if (!joystick_.commands()) return;
+  if (!gate_.isManual()) return;
   if (follower_.active() && follower_.state() != FollowState::PAUSED) {
     follower_.pause();
     DriveReport report;
@@ -305,18 +282,14 @@ void DriveLoop::yieldToJoystick() {
   if (follower_.state() == FollowState::ARRIVED) follower_.abandon(kTakenOver);
 }
 
-void DriveLoop::publish(const BodyVelocity& velocity) {
-  if (joystick_.commands() && !holds_.stopped) {
-    silent_ = true;  // the joystick's velocities are in force, and its zero when it is let go
-    gate_.sent({});
-    return;
-  }
-  const bool driven = follower_.active() && follower_.state() != FollowState::PAUSED;
-  if (!driven && !holds_.stopped && velocity.isZero() && silent_) return;
-  velocity_publisher_.publish(velocityToMessage(velocity));
-  gate_.sent(velocity);
-  if (!velocity.isZero()) holds_.map.driven.note(holds_.now());
-  silent_ = !driven && velocity.isZero();  // sent: what threw is tried again
+bool DriveLoop::isDriven() const {
+  return follower_.active() && follower_.state() != FollowState::PAUSED;
+}
+
+void DriveLoop::send(const BodyVelocity& velocity) {
+  const BodyVelocity sent = gate_.send(velocity, isDriven()).value_or(BodyVelocity{});
+  motions_.sent(sent);
+  if (!sent.isZero()) holds_.map.driven.note(holds_.now());
 }
 
 void DriveLoop::report(const ros::Time& now) {

@@ -6,20 +6,15 @@
 //   loop.start(path, Join::NEAREST, handovers);  // throws InputError
 //   for (const DriveReport& report : loop.takeReports()) use(report.note);
 //
-// The follower belongs to this thread alone: others hand it work over a callback queue, and it serves
-// the topics that must be obeyed whatever else the node does. Guaranteed: the thread reads no file,
-// logs nothing, publishes nothing but cmd_vel, and takes no lock that code holds which does. A
-// non-zero velocity is followed by a zero within a tick when the drive ends, is paused or blocked,
-// and by the wall clock when ROS time stands still. While `stop` is true there are zeros only, and
-// while a joystick commands (`manual_control`) there is nothing at all: the drive is paused, and
-// resumed by hand. A velocity is written to its connections by this thread itself. How it is scheduled:
-// control_thread.h.
+// The follower belongs to this thread alone: others hand it work over a callback queue. What is sent, and what holds the
+// vehicle whatever is driven: command_gate.h. A non-zero velocity is followed by a zero within a tick when the drive
+// ends, is paused or blocked, and by the wall clock when ROS time stands still. While a joystick commands the drive is
+// paused, and it is resumed by hand.
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
-#include <std_msgs/Bool.h>
 #include <std_msgs/String.h>
 
 #include <chrono>
@@ -33,10 +28,8 @@
 #include "grid_path_planner/following/path_follower.h"
 #include "ros/driving/hold_reasons.h"
 #include "ros/driving/motion_gate.h"
-#include "ros/guard/outgoing/direct_publisher.h"
-#include "ros/guard/scheduling/control_thread.h"
+#include "ros/gate/command_gate.h"
 #include "ros/input/frame_lookup.h"
-#include "ros/input/manual_control.h"
 #include "vehicle/footprint.h"
 
 namespace grid_path_planner::nodes {
@@ -100,35 +93,28 @@ class DriveLoop {
 
   std::vector<DriveReport> takeReports();
 
-  // How the thread is scheduled, in words.
-  std::string scheduling() const { return thread_.scheduling(); }
-
-  // Resolved names.
-  std::string velocityTopic() const { return velocity_publisher_.topic(); }
-  std::string manualTopic() const { return manual_subscriber_.getTopic(); }
-  std::size_t numberOfListeners() const { return velocity_publisher_.numberOfListeners(); }
+  const CommandGate& gate() const { return gate_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
   // In the loop's thread:
+  CommandGate::Owner owner();
   void tick();
-  void giveUpTick();
   void timeWentBack(double seconds);
   void follow(const ros::Time& now);
+  std::string whyHeld() const;
   void findVehicle(following::FollowInput& input) const;
   void checkMotions(following::FollowInput& input) const;
   std::string whyNotFree(const std::vector<Eigen::Vector3d>& ahead) const;
   std::vector<Eigen::Vector3d> inFrame(const std::string& frame,
                                        const std::vector<Eigen::Vector3d>& points) const;
   double allowedSpeed(const std::vector<Eigen::Vector3d>& ahead) const;
-  void onManual(const std_msgs::Bool& message);
-  void onStop(const std_msgs::Bool& message);
   void onLocalization(const std_msgs::String& message);
   void noteRefused();
-  void noteHandover();
   void yieldToJoystick();
-  void publish(const base::BodyVelocity& velocity);
+  bool isDriven() const;
+  void send(const base::BodyVelocity& velocity);
   void report(const ros::Time& now);
   void hand(std::vector<DriveReport> reports);
   DriveStanding standingNow() const;
@@ -138,25 +124,17 @@ class DriveLoop {
   FrameTransforms& transforms_;
   const Callbacks callbacks_;
   following::PathFollower follower_;
-  MotionGate gate_;
+  MotionGate motions_;
   HoldReasons holds_;
-  unsigned drive_ = 0;  // started so far
-  unsigned handovers_ = 0;
-  ManualControl joystick_;
+  unsigned drive_ = 0;                        // started so far
   std::optional<Clock::time_point> refused_;  // when a message was, and that was told
-  bool finished_ = false;                     // the node ends
-  bool silent_ = true;  // nothing, or a zero, was sent last and there is no drive
   int reported_waypoint_ = -1;
 
   std::mutex reports_mutex_;
   std::vector<DriveReport> reports_;
   bool reports_told_ = false;  // since takeReports()
 
-  DirectPublisher velocity_publisher_;
-  ControlThread thread_{[this] { tick(); }, [this] { giveUpTick(); },
-                        [this](double seconds) { timeWentBack(seconds); }};
-  ros::Subscriber manual_subscriber_;
-  ros::Subscriber stop_subscriber_;
+  CommandGate gate_;
   ros::Subscriber localization_subscriber_;
 };
 

@@ -42,12 +42,12 @@
 #include "ros/driving/go_to_messages.h"
 #include "ros/driving/go_to_pose_options.h"
 #include "ros/driving/move_base_action.h"
+#include "ros/gate/manual_control.h"
 #include "ros/guard/action/action_caller.h"
 #include "ros/guard/guarded_queue.h"
 #include "ros/guard/master/command_claim.h"
 #include "ros/guard/node_time.h"
 #include "ros/input/frame_lookup.h"
-#include "ros/input/manual_control.h"
 
 namespace grid_path_planner {
 class GoToPoseConfig;

@@ -4,8 +4,6 @@
 
 #include "base/seconds_since.h"
 #include "ros/guard/incoming/claimed_lengths.h"
-#include "ros/guard/master/system_state.h"
-#include "ros/messages/velocity_message.h"
 
 namespace grid_path_planner::nodes {
 
@@ -27,51 +25,46 @@ JoystickState stateOf(const sensor_msgs::Joy& message) {
 }  // namespace
 
 JoystickLoop::JoystickLoop(const ros::NodeHandle& nh, const TeleopJoyOptions& options, Note note)
-    : nh_(nh),
-      note_(std::move(note)),
+    : note_(std::move(note)),
       options_(options),
-      publisher_(nh_.advertise<geometry_msgs::Twist>("cmd_vel", 10)),
-      manual_publisher_(nh_.advertise<std_msgs::Bool>("manual_control", 10)) {
-  nh_.setCallbackQueue(&thread_.queue());
-}
+      gate_(nh, owner(), CommandGate::Joystick::OWN),
+      manual_publisher_(gate_.handle().advertise<std_msgs::Bool>("manual_control", 10)) {}
 
 JoystickLoop::~JoystickLoop() {
   if (!started_) return;
   finish();
-  thread_.stop();
+  gate_.thread().stop();
+}
+
+CommandGate::Owner JoystickLoop::owner() {
+  CommandGate::Owner owner;
+  owner.tick = [this] { tick(); };
+  owner.drives = [this] { return commands_.load(); };
+  owner.on_refused = [this] { refuse("a message on stop has the bytes of another"); };
+  return owner;
 }
 
 void JoystickLoop::start() {
-  const auto refused = [this] { refuse("a message on joy or stop has the bytes of another"); };
-  stop_subscriber_ = subscribeChecked<std_msgs::Bool>(
-      nh_, "stop", 1, [this](const std_msgs::Bool& message) { onStop(message); }, refused);
-  waitForPublishers(stop_subscriber_);
+  gate_.start({options_.command_rate, options_.realtime_priority});
   joy_subscriber_ = subscribeChecked<sensor_msgs::Joy>(
-      nh_, "joy", 10, [this](const sensor_msgs::Joy& message) { onJoy(message); }, refused);
-  thread_.start(options_.command_rate, options_.realtime_priority);
+      gate_.handle(), "joy", 10, [this](const sensor_msgs::Joy& message) { onJoy(message); },
+      [this] { refuse("a message on joy has the bytes of another"); });
   started_ = true;
 }
 
 void JoystickLoop::setOptions(const TeleopJoyOptions& options) {
-  thread_.ask([this, &options] {
+  gate_.thread().ask([this, &options] {
     options_ = options;
-    thread_.setRate(options.command_rate);
-    thread_.setPriority(options.realtime_priority);
+    gate_.setSchedule({options.command_rate, options.realtime_priority});
   });
 }
 
 void JoystickLoop::finish() {
-  bool sent = false;
-  thread_.askAtLast([&] {
-    finished_ = true;
-    sent = release() || sent;
-  });
-  if (sent && publisher_.numberOfListeners() > 0)
-    ros::WallDuration(0.1).sleep();  // what a connection did not take is sent by roscpp's thread
+  gate_.finish([this] { release(); });
 }
 
 void JoystickLoop::onJoy(const sensor_msgs::Joy& message) {
-  if (finished_) return;
+  if (gate_.finished()) return;
   heard_ = Clock::now();
   try {
     const auto velocity = joystickVelocity(options_.joystick, stateOf(message));
@@ -92,25 +85,20 @@ void JoystickLoop::refuse(const std::string& why) {
   note_(Level::ERROR, "Refused: " + why);
 }
 
-void JoystickLoop::onStop(const std_msgs::Bool& message) {
-  stopped_ = message.data;
-  if (stopped_ && !finished_) publish({});
-}
-
 // The first command at once.
 void JoystickLoop::command(const BodyVelocity& velocity) {
   const bool takes_over = !std::exchange(velocity_, velocity);
   if (!takes_over) return;
   commands_ = true;
   announce(true);
-  publish(stopped_ ? BodyVelocity{} : velocity);
+  gate_.send(velocity, true);
   note_(Level::INFO, "The joystick commands");
 }
 
 void JoystickLoop::tick() {
-  if (finished_) return;
   if (!velocity_) {
-    if (!release() && stopped_) publish({});
+    release();
+    gate_.send({}, false);
     return;
   }
   const double silence = base::secondsSince(heard_);
@@ -121,11 +109,7 @@ void JoystickLoop::tick() {
     return;
   }
   announce(true);
-  publish(stopped_ ? BodyVelocity{} : *velocity_);
-}
-
-void JoystickLoop::publish(const BodyVelocity& velocity) {
-  publisher_.publish(velocityToMessage(velocity));
+  gate_.send(*velocity_, true);
 }
 
 void JoystickLoop::announce(bool commands) {
@@ -134,15 +118,14 @@ void JoystickLoop::announce(bool commands) {
   manual_publisher_.publish(message);
 }
 
-// Whether it commanded. What could not be sent for want of memory is sent by the next tick.
-bool JoystickLoop::release() {
-  if (!commands_) return false;
+// What could not be sent for want of memory is sent by the next tick.
+void JoystickLoop::release() {
+  if (!commands_) return;
   velocity_.reset();
-  publish({});
+  gate_.send({}, false);
   announce(false);
   commands_ = false;
   note_(Level::INFO, "The joystick commands no longer");
-  return true;
 }
 
 }  // namespace grid_path_planner::nodes

@@ -4,15 +4,14 @@
 //   loop.start();
 //   loop.finish();                                // a zero, if the joystick commands
 //
-// It serves `joy` and `stop`. Guaranteed: the thread logs nothing, publishes nothing but cmd_vel and manual_control,
-// which it writes to their connections itself, manual_control before the velocity, and takes no lock that code
-// holds which does. How it is scheduled: control_thread.h.
+// It serves `joy`; what is sent, and `stop`: command_gate.h. Guaranteed: the thread logs nothing, publishes nothing but
+// cmd_vel and manual_control, which it writes to their connections itself, manual_control before the velocity, and takes
+// no lock that code holds which does.
 #pragma once
 
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 #include <sensor_msgs/Joy.h>
-#include <std_msgs/Bool.h>
 
 #include <atomic>
 #include <chrono>
@@ -21,8 +20,8 @@
 #include <string>
 
 #include "ros/driving/teleop_joy_options.h"
+#include "ros/gate/command_gate.h"
 #include "ros/guard/outgoing/direct_publisher.h"
-#include "ros/guard/scheduling/control_thread.h"
 
 namespace grid_path_planner::nodes {
 
@@ -45,39 +44,31 @@ class JoystickLoop {
   void finish();
 
   bool commands() const { return commands_; }
-  // How the thread is scheduled, in words.
-  std::string scheduling() const { return thread_.scheduling(); }
+  const CommandGate& gate() const { return gate_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  CommandGate::Owner owner();
   // In the thread:
   void onJoy(const sensor_msgs::Joy& message);
-  void onStop(const std_msgs::Bool& message);
   void refuse(const std::string& why);
   void tick();
   void command(const base::BodyVelocity& velocity);
-  void publish(const base::BodyVelocity& velocity);
   void announce(bool commands);
-  bool release();
+  void release();
 
-  ros::NodeHandle nh_;  // whose callbacks the thread serves
   const Note note_;
   TeleopJoyOptions options_;
   std::optional<base::BodyVelocity> velocity_;  // none: the joystick commands nothing
-  bool stopped_ = false;                        // by the topic
-  bool finished_ = false;                       // the node ends
   Clock::time_point heard_;
   std::optional<Clock::time_point> refused_;  // when that was told last
   std::atomic<bool> commands_{false};         // until the zero is sent
   bool started_ = false;
 
-  DirectPublisher publisher_, manual_publisher_;
-  ControlThread thread_{[this] { tick(); },
-                        [this] {
-                          if (commands_) publish({});
-                        }};
-  ros::Subscriber joy_subscriber_, stop_subscriber_;
+  CommandGate gate_;
+  DirectPublisher manual_publisher_;
+  ros::Subscriber joy_subscriber_;
 };
 
 }  // namespace grid_path_planner::nodes

@@ -19,7 +19,7 @@ void NavigatePathNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   status.add("distance remaining (m)", standing.distance_remaining);
   status.add("time remaining (s)", standing.time_remaining);
   status.add("missed waypoints", standing.missed.size());
-  status.add("scheduling of commands", loop_->scheduling());
+  status.add("scheduling of commands", loop_->gate().scheduling());
 }
 
 void NavigatePathNode::diagnoseMap(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -59,7 +59,7 @@ void NavigatePathNode::diagnoseVehicle(diagnostic_updater::DiagnosticStatusWrapp
 
 void NavigatePathNode::diagnoseOthers(diagnostic_updater::DiagnosticStatusWrapper& status) {
   others_.report(status);
-  diagnoseMaster(master_->silence(), options_.master_timeout, status);
+  diagnoseMaster(loop_->gate().masterSilence(), options_.master_timeout, status);
 }
 
 }  // namespace grid_path_planner::nodes

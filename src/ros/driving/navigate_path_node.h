@@ -47,7 +47,6 @@
 #include "ros/driving/map_monitor.h"
 #include "ros/driving/navigate_path_options.h"
 #include "ros/guard/master/command_claim.h"
-#include "ros/guard/master/master_watch.h"
 #include "ros/guard/master/other_commanders.h"
 #include "ros/guard/node_files.h"
 #include "ros/guard/node_time.h"
@@ -124,7 +123,6 @@ class NavigatePathNode {
   path::Path file_;  // of config_filename
   const CommandClaim commands_;
   OtherCommanders others_{commands_};
-  const std::shared_ptr<MasterWatch> master_ = MasterWatch::shared();
   FrameTransforms transforms_;
   NodeTime& time_;
   bool waits_for_clock_ = false;

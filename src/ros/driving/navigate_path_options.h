@@ -6,7 +6,7 @@
 
 #include "grid_path_planner/following/follower_options.h"
 #include "grid_path_planner/following/path_clearance_check.h"
-#include "ros/driving/localization_gate.h"
+#include "ros/gate/localization_gate.h"
 #include "ros/guard/scheduling/realtime_priority.h"
 #include "ros/messages/zero_heading.h"
 #include "vehicle/description.h"

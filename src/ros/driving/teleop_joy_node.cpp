@@ -82,7 +82,7 @@ void TeleopJoyNode::note(JoystickLoop::Level level, const std::string& sentence)
 void TeleopJoyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK,
                  loop_->commands() ? "the joystick commands" : "the joystick commands nothing");
-  status.add("scheduling of commands", loop_->scheduling());
+  status.add("scheduling of commands", loop_->gate().scheduling());
 }
 
 }  // namespace grid_path_planner::nodes

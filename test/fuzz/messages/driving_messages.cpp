@@ -10,7 +10,7 @@
 #include "fuzz/fuzz_target.h"
 #include "fuzz/messages/fuzz_messages.h"
 #include "grid_path_planner/ros/occupancy_conversion.h"
-#include "ros/driving/localization_gate.h"
+#include "ros/gate/localization_gate.h"
 #include "ros/input/finished_goals.h"
 #include "ros/messages/velocity_message.h"
 

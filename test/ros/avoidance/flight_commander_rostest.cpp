@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -38,12 +39,16 @@ class CommanderTest : public testing::Test {
     options_.control_rate = 50.0;
     options_.master_timeout = 0.0;
     ASSERT_TRUE(test::waitFor([&] { return !ros::Time::now().isZero(); }));
-    commander_ = std::make_unique<FlightCommander>(nh_, options_, hold_);
-    ASSERT_TRUE(
-        test::waitFor([&] { return commands_.connected() && manuals_.getNumSubscribers() > 0; }));
+    commander_ =
+        std::make_unique<FlightCommander>(nh_, options_, [this](unsigned n) { handovers_ = n; });
+    ASSERT_TRUE(commander_->begin(0));
+    ASSERT_TRUE(test::waitFor([&] {
+      return commands_.connected() && manuals_.getNumSubscribers() > 0 &&
+             stops_.getNumSubscribers() > 0;
+    }));
   }
   void plan(double good_for) {
-    hold_.notice(ros::Time::now(), true);
+    commander_->notice(true);
     commander_->command({{1.0, 0.0, 0.0, 0.0}, measured_, 0.0, ros::Time::now(), good_for, false});
   }
   // With a new plan every now and then.
@@ -62,7 +67,7 @@ class CommanderTest : public testing::Test {
   bool endsInZeros() {
     const auto noticed = [&](const std::function<bool()>& condition) {
       return test::waitFor([&] {
-        hold_.notice(ros::Time::now(), true);
+        commander_->notice(true);
         return condition();
       });
     };
@@ -83,23 +88,30 @@ class CommanderTest : public testing::Test {
   static bool isSlower(const Twist& v) { return v.linear.x > 0.0 && v.linear.x < 0.95; }
   bool becomesSlower() {
     return test::waitFor([&] {
-      hold_.notice(ros::Time::now(), true);
+      commander_->notice(true);
       return isSlower(commands_.all().back());
     });
+  }
+  bool stops(bool is) {
+    std_msgs::Bool message;
+    message.data = is;
+    stops_.publish(message);
+    return test::waitFor([&] { return commander_->gate().stopped() == is; });
   }
   bool becomesManual(bool is) {
     std_msgs::Bool message;
     message.data = is;
     manuals_.publish(message);
-    return test::waitFor([&] { return hold_.isManual() == is; });
+    return test::waitFor([&] { return commander_->gate().isManual() == is; });
   }
 
   test::Sky sky_;
   ros::NodeHandle nh_;
   Latest<Twist> commands_{nh_, "cmd_vel"};
   ros::Publisher manuals_ = nh_.advertise<std_msgs::Bool>("manual_control", 1);
+  ros::Publisher stops_ = nh_.advertise<std_msgs::Bool>("stop", 1);
   LocalPlannerOptions options_;
-  FlightHold hold_{[](unsigned) {}};
+  std::atomic<unsigned> handovers_{0};
   base::BodyVelocity measured_{1.0, 0.0, 0.0, 0.0};
   std::unique_ptr<FlightCommander> commander_;
 };
@@ -141,20 +153,21 @@ TEST_F(CommanderTest, SaysWhatItHasSent) {
   ASSERT_NO_FATAL_FAILURE(start(10.0));
   const auto sends = [&](double surge) {
     return test::waitFor([&] {
-      hold_.notice(ros::Time::now(), true);
-      return commander_->sent().surge == surge;
+      commander_->notice(true);
+      return commander_->gate().sent().surge == surge;
     });
   };
   ASSERT_TRUE(fliesBy(1e3));
   EXPECT_TRUE(sends(1.0));
-  hold_.stop(true);
+  ASSERT_TRUE(stops(true));
   EXPECT_TRUE(sends(0.0));
-  hold_.stop(false);
+  ASSERT_TRUE(stops(false));
   EXPECT_TRUE(endsInZeros()) << "until the next plan";
   ASSERT_TRUE(fliesBy(1e3));
   EXPECT_TRUE(sends(1.0));
-  EXPECT_TRUE(test::waitFor([&] { return becomesManual(true) && commander_->sent().surge == 0.0; }))
-      << "the joystick's velocities are in force, of which it knows none";
+  EXPECT_TRUE(test::waitFor([&] {
+    return becomesManual(true) && commander_->gate().sent().surge == 0.0;
+  })) << "the joystick's velocities are in force, of which it knows none";
 }
 
 TEST_F(CommanderTest, AVelocityWhoseCloudsGrowTooOldBecomesAZero) {
@@ -177,7 +190,7 @@ TEST_F(CommanderTest, AJoystickThatTookOverWhileThePlanWasLateIsNotForgotten) {
   ASSERT_TRUE(becomesManual(false));
   EXPECT_TRUE(endsInZeros());
   EXPECT_FALSE(anyDrives(before + 1)) << "one may have been sent before";
-  EXPECT_TRUE(hold_.resume(true).done);
+  EXPECT_TRUE(commander_->resume(true).done);
   EXPECT_TRUE(fliesBy(1e3));
 }
 
@@ -191,7 +204,7 @@ TEST_F(CommanderTest, WhatIsSentIsFiniteWhateverItIsHanded) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 3000; ++i) {
     const auto any = [&] { return random() % 16 == 0 ? odd[random() % odd.size()] : 0.5; };
-    hold_.notice(ros::Time::now(), true);
+    commander_->notice(true);
     commander_->command({{any(), any(), any(), any()},
                          {any(), any(), any(), any()},
                          any(),
@@ -206,6 +219,16 @@ TEST_F(CommanderTest, WhatIsSentIsFiniteWhateverItIsHanded) {
   const auto all = commands_.all();
   for (const Twist& v : all) ASSERT_TRUE(velocityFromMessage(v).isFinite()) << v;
   EXPECT_TRUE(std::any_of(all.begin(), all.end(), drives));
+}
+
+// It was asked once a plan whether a joystick commands: a tap between two plans was not seen.
+TEST_F(CommanderTest, WhatWasGivenBeforeATapIsNotBegunAfterwards) {
+  ASSERT_NO_FATAL_FAILURE(start(10.0));
+  commander_->notice(false);
+  for (const bool on : {true, false}) ASSERT_TRUE(becomesManual(on));
+  ASSERT_TRUE(test::waitFor([&] { return handovers_ == 2; }));
+  for (const unsigned given : {0U, 1U}) EXPECT_FALSE(commander_->begin(given)) << given;
+  EXPECT_TRUE(commander_->begin(2));
 }
 
 TEST_F(CommanderTest, NothingComesAfterItsLastZero) {

@@ -47,7 +47,7 @@ class HoldsTest : public test::FlightTest {
 TEST_F(HoldsTest, StopStopsAndLetsGo) {
   ASSERT_NO_FATAL_FAILURE(startAndFly());
   send(stops_, true);
-  EXPECT_TRUE(standsSaying("stopped by the topic stop"));
+  EXPECT_TRUE(standsSaying("stopped by the topic /stop"));
   send(stops_, false);
   EXPECT_TRUE(flies()) << said();
 }

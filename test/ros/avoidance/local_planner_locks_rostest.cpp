@@ -218,7 +218,7 @@ TEST_F(LocalPlannerLocks, TakesNoLockThatCloudsFilesOrLogsAreHandledUnder) {
     dynamic_reconfigure::Reconfigure reconfigure;
     EXPECT_TRUE(ros::service::call("/local_planner/set_parameters", reconfigure));
     send(stops_, true);
-    ASSERT_TRUE(says("stopped by the topic stop")) << said();
+    ASSERT_TRUE(says("stopped by the topic /stop")) << said();
     send(stops_, false);
     const std::size_t seen = diagnostics_.count(), shown = pictures.count();
     EXPECT_TRUE(

@@ -1,4 +1,4 @@
-#include "ros/driving/localization_gate.h"
+#include "ros/gate/localization_gate.h"
 
 #include "base/seconds_since.h"
 #include "grid_path_planner/base/decimal_text.h"

@@ -1,5 +1,5 @@
 // What a localiser's words allow.
-#include "ros/driving/localization_gate.h"
+#include "ros/gate/localization_gate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ros/input/manual_control.h"
+#include "ros/gate/manual_control.h"
 
 #include <gtest/gtest.h>
 
